@@ -1,0 +1,76 @@
+/// One host: datagrams in, the state in force and what to answer out. No sockets, no clock: pure, so that it is
+/// tested and fuzzed without either.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "net/host_state.hpp"
+
+namespace eyepoint::net {
+
+/// Why a datagram, or a packet in one, was not used.
+enum class DropReason : std::uint8_t {
+    UnknownProtocol,     ///< neither FGNetFDM nor CIGI by its first bytes
+    Short,               ///< ends before its content does
+    Long,                ///< longer than its format allows
+    WrongVersion,        ///< a version that is not supported
+    WrongByteOrder,      ///< a sender that forgot network byte order, or a wrong byte-swap magic
+    NotFinite,           ///< NaN or infinity
+    OutOfRange,          ///< latitude, longitude, altitude or an angle outside its range
+    BadPacketSize,       ///< a CIGI packet size of zero, too small, or past the datagram's end
+    MisplacedIgControl,  ///< a CIGI message that does not begin with IG Control, or holds a second one
+    StaleFrame,          ///< a host frame number older than one already applied
+    Count
+};
+[[nodiscard]] std::string_view name(DropReason reason);
+
+struct SessionCounters {
+    std::uint64_t datagrams = 0;
+    std::uint64_t applied = 0;
+    std::array<std::uint64_t, static_cast<std::size_t>(DropReason::Count)> dropped{};
+    [[nodiscard]] std::uint64_t dropped_total() const;
+};
+
+/// What the IG says of itself in CIGI's Start Of Frame.
+struct IgStatus {
+    std::uint32_t ig_frame = 0;
+    IgMode mode = IgMode::Standby;
+    std::int8_t database = 0;     ///< CIGI database number: loaded, -n loading, -128 not available
+    std::uint8_t status_code = 0;
+    std::uint32_t timestamp_10us = 0;
+};
+
+/// Result of one datagram: applied (perhaps with packets in it dropped), or dropped whole.
+struct Reception {
+    bool applied = false;
+    std::optional<DropReason> dropped;  ///< the first reason met
+    std::string detail;                 ///< for the log: what came and what was expected; empty when nothing was dropped
+};
+
+class HostSession {
+  public:
+    /// Takes one datagram. Only a datagram that is valid as a whole position changes an entity: the last good eye
+    /// stays. Never throws, never reads outside `bytes`.
+    Reception receive(std::span<const std::byte> bytes, ArrivalTime arrival);
+
+    /// nullptr until a host has spoken validly.
+    [[nodiscard]] const HostState* state() const;
+    [[nodiscard]] const SessionCounters& counters() const { return counters_; }
+
+    /// The Start Of Frame datagram for the host (3.3 layout; 16-byte layout for a 3.0/3.1 host), in the host's byte
+    /// order; before the first host message little-endian 3.3.
+    [[nodiscard]] std::vector<std::byte> start_of_frame(const IgStatus& status) const;
+
+  private:
+    // to be written by the implementation
+    SessionCounters counters_;
+};
+
+}  // namespace eyepoint::net

@@ -1,0 +1,2 @@
+target_sources(eyepoint_terrain PRIVATE
+)

@@ -1,0 +1,51 @@
+#include "terrain/geodesy/earth.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include <GeographicLib/Geocentric.hpp>
+
+namespace eyepoint::terrain {
+
+Ecef to_ecef(const Geodetic& place) {
+    Ecef point;
+    GeographicLib::Geocentric::WGS84().Forward(place.latitude_deg, place.longitude_deg, place.height.metres(),
+                                               point.x, point.y, point.z);
+    return point;
+}
+
+Geodetic to_geodetic(const Ecef& point) {
+    double latitude_deg = 0.0;
+    double longitude_deg = 0.0;
+    double height_m = 0.0;
+    GeographicLib::Geocentric::WGS84().Reverse(point.x, point.y, point.z, latitude_deg, longitude_deg, height_m);
+    return {latitude_deg, longitude_deg, EllipsoidalHeight{height_m}};
+}
+
+glm::dmat3 east_north_up(double latitude_deg, double longitude_deg) {
+    Ecef point;
+    std::vector<double> rotation(9);  // row-major; its columns are east, north, up
+    GeographicLib::Geocentric::WGS84().Forward(latitude_deg, longitude_deg, 0.0, point.x, point.y, point.z,
+                                               rotation);
+    return {{rotation[0], rotation[3], rotation[6]},
+            {rotation[1], rotation[4], rotation[7]},
+            {rotation[2], rotation[5], rotation[8]}};
+}
+
+glm::dmat3 attitude_rotation(const Attitude& attitude) {
+    const double cy = std::cos(attitude.yaw_rad), sy = std::sin(attitude.yaw_rad);
+    const double cp = std::cos(attitude.pitch_rad), sp = std::sin(attitude.pitch_rad);
+    const double cr = std::cos(attitude.roll_rad), sr = std::sin(attitude.roll_rad);
+    const glm::dmat3 yaw{{cy, sy, 0.0}, {-sy, cy, 0.0}, {0.0, 0.0, 1.0}};
+    const glm::dmat3 pitch{{cp, 0.0, -sp}, {0.0, 1.0, 0.0}, {sp, 0.0, cp}};
+    const glm::dmat3 roll{{1.0, 0.0, 0.0}, {0.0, cr, sr}, {0.0, -sr, cr}};
+    return yaw * pitch * roll;
+}
+
+glm::dmat3 body_axes(double latitude_deg, double longitude_deg, const Attitude& attitude) {
+    const glm::dmat3 enu = east_north_up(latitude_deg, longitude_deg);
+    const glm::dmat3 ned{enu[1], enu[0], -enu[2]};
+    return ned * attitude_rotation(attitude);
+}
+
+}  // namespace eyepoint::terrain
