@@ -1,5 +1,5 @@
-/// One host: datagrams in, the state in force and what to answer out. No sockets, no clock: pure, so that it is
-/// tested and fuzzed without either.
+/// One host: datagrams in, the state in force and what to answer out. No sockets, no clock: pure, so that it
+/// is tested and fuzzed without either.
 #pragma once
 
 #include <array>
@@ -8,28 +8,14 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "net/drop_reason.hpp"
+#include "net/frame_order.hpp"
 #include "net/host_state.hpp"
+#include "net/wire/cigi_packets.hpp"
 
 namespace eyepoint::net {
-
-/// Why a datagram, or a packet in one, was not used.
-enum class DropReason : std::uint8_t {
-    UnknownProtocol,     ///< neither FGNetFDM nor CIGI by its first bytes
-    Short,               ///< ends before its content does
-    Long,                ///< longer than its format allows
-    WrongVersion,        ///< a version that is not supported
-    WrongByteOrder,      ///< a sender that forgot network byte order, or a wrong byte-swap magic
-    NotFinite,           ///< NaN or infinity
-    OutOfRange,          ///< latitude, longitude, altitude or an angle outside its range
-    BadPacketSize,       ///< a CIGI packet size of zero, too small, or past the datagram's end
-    MisplacedIgControl,  ///< a CIGI message that does not begin with IG Control, or holds a second one
-    StaleFrame,          ///< a host frame number older than one already applied
-    Count
-};
-[[nodiscard]] std::string_view name(DropReason reason);
 
 struct SessionCounters {
     std::uint64_t datagrams = 0;
@@ -42,7 +28,7 @@ struct SessionCounters {
 struct IgStatus {
     std::uint32_t ig_frame = 0;
     IgMode mode = IgMode::Standby;
-    std::int8_t database = 0;     ///< CIGI database number: loaded, -n loading, -128 not available
+    std::int8_t database = 0;  ///< CIGI database number: loaded, -n loading, -128 not available
     std::uint8_t status_code = 0;
     std::uint32_t timestamp_10us = 0;
 };
@@ -51,26 +37,41 @@ struct IgStatus {
 struct Reception {
     bool applied = false;
     std::optional<DropReason> dropped;  ///< the first reason met
-    std::string detail;                 ///< for the log: what came and what was expected; empty when nothing was dropped
+    std::string detail;  ///< for the log: what came and what was expected; empty when nothing was dropped
 };
 
 class HostSession {
   public:
-    /// Takes one datagram. Only a datagram that is valid as a whole position changes an entity: the last good eye
-    /// stays. Never throws, never reads outside `bytes`.
+    /// Takes one datagram. Only a datagram that is valid as a whole position changes an entity: the last good
+    /// eye stays. Never throws, never reads outside `bytes`.
     Reception receive(std::span<const std::byte> bytes, ArrivalTime arrival);
 
     /// nullptr until a host has spoken validly.
     [[nodiscard]] const HostState* state() const;
     [[nodiscard]] const SessionCounters& counters() const { return counters_; }
 
-    /// The Start Of Frame datagram for the host (3.3 layout; 16-byte layout for a 3.0/3.1 host), in the host's byte
-    /// order; before the first host message little-endian 3.3.
+    /// The Start Of Frame datagram for the host (3.3 layout; 16-byte layout for a 3.0/3.1 host), in the
+    /// host's byte order; before the first host message little-endian 3.3.
     [[nodiscard]] std::vector<std::byte> start_of_frame(const IgStatus& status) const;
 
   private:
-    // to be written by the implementation
+    Reception receive_fgnetfdm(std::span<const std::byte> bytes, ArrivalTime arrival);
+    Reception receive_cigi(std::span<const std::byte> bytes, ArrivalTime arrival);
+    void begin(Protocol protocol);
+    void obey(const wire::CigiIgControl& control);
+    std::optional<WireError> apply_packet(std::uint8_t id, std::span<const std::byte> packet);
+    void apply(const wire::CigiEntityControl& control);
+    void apply(const wire::CigiViewControl& control);
+    std::optional<WireError> apply(const wire::CigiViewDefinition& definition);
+    void count(Reception& reception, WireError error);
+
+    HostState state_;
+    bool spoken_ = false;
     SessionCounters counters_;
+    wire::CigiDialect dialect_;
+    FrameOrder frame_order_;
+    std::optional<std::uint32_t> last_timestamp_10us_;
+    std::int64_t host_clock_10us_ = 0;  ///< the timestamps with their wraps taken out
 };
 
 }  // namespace eyepoint::net

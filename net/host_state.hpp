@@ -30,6 +30,9 @@ struct EntityState {
     double altitude_m = 0.0;
     AttitudeDeg attitude;
     bool active = true;
+    /// CIGI's ground clamp: altitude_m is above the terrain surface below the entity, which the IG has to
+    /// look up.
+    bool above_ground = false;
 };
 
 /// A view as the host has defined and placed it; what it has not said is absent.
@@ -49,13 +52,16 @@ enum class IgMode : std::uint8_t { Standby = 0, Operate = 1, Debug = 2, Maintena
 /// Everything in force after the newest message.
 struct HostState {
     Protocol protocol = Protocol::FgNetFdm;
-    std::map<std::uint16_t, EntityState> entities;  ///< 0 is the ownship
+    /// 0 is the ownship. Only top-level entities: one that is attached to another is not among them.
+    std::map<std::uint16_t, EntityState> entities;
     std::map<std::uint16_t, ViewState> views;
     IgMode commanded_mode = IgMode::Operate;
+    /// CIGI database number that the host asked for last; 0: none so far.
     std::int8_t requested_database = 0;
     /// The host's frame number (CIGI), or the count of valid packets (FGNetFDM has none).
     std::uint32_t host_frame = 0;
-    /// The host's own clock in seconds, where it sends one (CIGI timestamp; FGNetFDM cur_time).
+    /// The host's own clock in seconds, where it sends one: CIGI timestamp, its wraps taken out, from an
+    /// origin of the host's own; FGNetFDM cur_time + warp where that is a believable UTC, seconds since 1970.
     std::optional<double> host_time_s;
     ArrivalTime arrival;
 
