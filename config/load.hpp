@@ -37,12 +37,12 @@ struct Override {
 using EnvironmentVariables = std::vector<std::pair<std::string, std::string>>;
 
 struct LoadRequest {
-    std::optional<std::filesystem::path> file;  ///< none: no file is read
+    std::optional<std::filesystem::path> file{};  ///< none: no file is read
     /// The variables to look at. EYEPOINT_<SECTION>_<NAME> sets section.name; another name that begins with
     /// EYEPOINT_ is an error, except those of other_environment_variables(). Names without the prefix are
     /// ignored.
-    EnvironmentVariables environment;
-    std::vector<Override> overrides;  ///< a later one wins over an earlier one
+    EnvironmentVariables environment{};
+    std::vector<Override> overrides{};  ///< a later one wins over an earlier one
 };
 
 struct LoadedSettings {

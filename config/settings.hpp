@@ -1,4 +1,5 @@
-/// Every setting of the image generator, with its default. docs/settings.md and config/eyepoint.toml describe them.
+/// Every setting of the image generator, with its default. docs/settings.md and config/eyepoint.toml describe
+/// them.
 #pragma once
 
 #include <cstdint>
@@ -10,48 +11,48 @@ enum class OutputKind : std::uint8_t { Window, Pictures, Video, None };
 enum class VerticalDatum : std::uint8_t { Msl, Ellipsoid };
 
 struct TerrainSettings {
-    std::string database;                    ///< folder of the terrain database
-    std::string geoid;                       ///< EGM96 grid (GeographicLib PGM); empty: the one built with Eyepoint
-    std::string lod_method = "tile";         ///< how blocks are chosen
-    double tau_px = 1.5;                     ///< tolerance in pixels, 0.1..100
-    std::uint32_t loader_threads = 1;        ///< 1..16
-    std::uint32_t cache_mib = 512;           ///< loaded blocks kept, 64..65536
+    std::string database;  ///< folder of the terrain database
+    std::string geoid;     ///< EGM96 grid (GeographicLib PGM); empty: the one built with Eyepoint
+    std::string lod_method = "regular";  ///< how blocks are chosen
+    double tau_px = 1.5;                 ///< tolerance in pixels, 0.1..100
+    std::uint32_t loader_threads = 1;    ///< 1..16
+    std::uint32_t cache_mib = 512;       ///< loaded blocks kept, 64..65536
 };
 
 struct HostSettings {
-    std::string address = "0.0.0.0";         ///< local address to listen on
-    std::uint16_t port = 5560;               ///< UDP port to listen on
-    std::string answer_to;                   ///< "HOST:PORT" for CIGI answers; empty: whoever sent last
+    std::string address = "0.0.0.0";  ///< local address to listen on
+    std::uint16_t port = 5560;        ///< UDP port to listen on
+    std::string answer_to;            ///< "HOST:PORT" for CIGI answers; empty: whoever sent last
     VerticalDatum altitude_datum = VerticalDatum::Msl;  ///< what the host's altitudes are above
-    double end_after_silence_s = 0.0;        ///< end this long after the host's last packet; 0: never
+    double end_after_silence_s = 0.0;  ///< end this long after the host's last packet; 0: never
 };
 
 struct ViewSettings {
-    std::uint32_t width_px = 1280;           ///< 16..16384
+    std::uint32_t width_px = 1280;  ///< 16..16384
     std::uint32_t height_px = 720;
-    double vertical_fov_deg = 40.0;          ///< 1..170, unless the host defines the view
-    double near_m = 0.5;                     ///< 0.01..100
+    double vertical_fov_deg = 40.0;  ///< 1..170, unless the host defines the view
+    double near_m = 0.5;             ///< 0.01..100
     double eye_forward_m = 0.0, eye_right_m = 0.0, eye_down_m = 0.0;  ///< eye in the vehicle's body axes
     double yaw_deg = 0.0, pitch_deg = 0.0, roll_deg = 0.0;            ///< view against the body axes
-    std::uint16_t cigi_view = 0;             ///< which of a CIGI host's views this channel draws
+    std::uint16_t cigi_view = 0;  ///< which of a CIGI host's views this channel draws
 };
 
 struct FrameSettings {
-    double rate_hz = 60.0;                   ///< 1..1000
-    std::uint64_t frames = 0;                ///< end after so many; 0: no end
+    double rate_hz = 60.0;     ///< 1..1000
+    std::uint64_t frames = 0;  ///< end after so many; 0: no end
 };
 
 struct EnvironmentSettings {
-    double visibility_m = 60000.0;           ///< 100..1000000
-    double sun_azimuth_deg = 150.0;          ///< 0..360 from true north
-    double sun_elevation_deg = 38.0;         ///< -90..90
+    double visibility_m = 60000.0;    ///< 100..1000000
+    double sun_azimuth_deg = 150.0;   ///< 0..360 from true north
+    double sun_elevation_deg = 38.0;  ///< -90..90
 };
 
 struct OutputSettings {
     OutputKind kind = OutputKind::Window;
-    std::string path;                        ///< folder of pictures, or video file
-    double picture_every_s = 0.0;            ///< pictures: one every so many seconds; 0: every frame
-    std::string record;                      ///< frame record file (JSON lines); empty: none
+    std::string path;              ///< folder of pictures, or video file
+    double picture_every_s = 0.0;  ///< pictures: one every so many seconds; 0: every frame
+    std::string record;            ///< frame record file (JSON lines); empty: none
 };
 
 struct Settings {
