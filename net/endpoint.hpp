@@ -1,6 +1,7 @@
 /// A UDP address and port, IPv4 or IPv6.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -19,6 +20,8 @@ struct Endpoint {
     [[nodiscard]] std::uint16_t port() const;
     /// "192.0.2.1:5560" or "[2001:db8::1]:5560".
     [[nodiscard]] std::string text() const;
+    /// In the order they are written; 0.0.0.0 for IPv6.
+    [[nodiscard]] std::array<std::uint8_t, 4> ipv4_bytes() const;
 };
 
 /// Looks up "HOST:PORT" (a name, an IPv4 address or an IPv6 address in brackets). `family` is AF_INET,

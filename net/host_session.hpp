@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include <tl/expected.hpp>
+
 #include "net/drop_reason.hpp"
 #include "net/frame_order.hpp"
 #include "net/host_state.hpp"
@@ -58,11 +60,11 @@ class HostSession {
     Reception receive_fgnetfdm(std::span<const std::byte> bytes, ArrivalTime arrival);
     Reception receive_cigi(std::span<const std::byte> bytes, ArrivalTime arrival);
     void begin(Protocol protocol);
-    void obey(const wire::CigiIgControl& control);
+    std::optional<WireError> obey(const wire::CigiIgControl& control);
     std::optional<WireError> apply_packet(std::uint8_t id, std::span<const std::byte> packet);
     void apply(const wire::CigiEntityControl& control);
     void apply(const wire::CigiViewControl& control);
-    std::optional<WireError> apply(const wire::CigiViewDefinition& definition);
+    tl::expected<void, WireError> apply(const wire::CigiViewDefinition& definition);
     void count(Reception& reception, WireError error);
 
     HostState state_;
