@@ -1,5 +1,5 @@
-/// The scene: terrain, sky and light drawn for a view into the bound framebuffer. Needs a current OpenGL 4.5 core
-/// context; one thread.
+/// The scene: terrain, sky and light drawn for a view into the bound framebuffer. Needs a current OpenGL 4.5
+/// core context; one thread.
 #pragma once
 
 #include <cstdint>
@@ -19,14 +19,14 @@ class Database;
 namespace eyepoint::ig {
 
 struct SceneOptions {
-    std::string lod_method = "tile";    ///< see terrain::lod_method_names()
-    double tau_px = 1.5;                ///< tolerance, pixels
-    double visibility_m = 60000.0;      ///< meteorological: contrast 2% at this distance, at sea level
-    double sun_azimuth_deg = 150.0;     ///< from true north, at the eye
-    double sun_elevation_deg = 38.0;    ///< above the horizon, at the eye
+    std::string lod_method = "regular";  ///< see terrain::lod_method_names()
+    double tau_px = 1.5;                 ///< tolerance, pixels
+    double visibility_m = 60000.0;       ///< meteorological: contrast 2% at this distance, at sea level
+    double sun_azimuth_deg = 150.0;      ///< from true north, at the eye
+    double sun_elevation_deg = 38.0;     ///< above the horizon, at the eye
     unsigned loader_threads = 1;
     std::uint64_t block_cache_bytes = 512ULL << 20;
-    bool sentinel = false;              ///< test aid: no sky, the clear colour stays where no terrain is drawn
+    bool sentinel = false;  ///< test aid: no sky, the clear colour stays where no terrain is drawn
 };
 
 class Scene {
@@ -36,12 +36,13 @@ class Scene {
         std::shared_ptr<const terrain::Database> database, const SceneOptions& options);
     virtual ~Scene() = default;
 
-    /// Draws every program and state pair once, at the view's size, so that no later frame pays for a first use.
+    /// Draws every program and state pair once, at the view's size, so that no later frame pays for a first
+    /// use.
     virtual void warm_up(const View& view) = 0;
     /// Draws one frame of the newest terrain there is; never waits for a load.
     virtual FrameStatistics draw(const View& view) = 0;
-    /// Loads, waiting, until nothing that the view asks for is missing (or cannot be read): for tests, pictures and
-    /// virtual time. Returns the number of blocks loaded.
+    /// Loads, waiting, until nothing that the view asks for is missing (or cannot be read): for tests,
+    /// pictures and virtual time. Returns the number of blocks loaded.
     virtual std::uint64_t load_all(const View& view) = 0;
 
     virtual void set_options(const SceneOptions& options) = 0;

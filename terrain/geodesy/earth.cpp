@@ -18,7 +18,8 @@ Geodetic to_geodetic(const Ecef& point) {
     double latitude_deg = 0.0;
     double longitude_deg = 0.0;
     double height_m = 0.0;
-    GeographicLib::Geocentric::WGS84().Reverse(point.x, point.y, point.z, latitude_deg, longitude_deg, height_m);
+    GeographicLib::Geocentric::WGS84().Reverse(point.x, point.y, point.z, latitude_deg, longitude_deg,
+                                               height_m);
     return {latitude_deg, longitude_deg, EllipsoidalHeight{height_m}};
 }
 

@@ -16,11 +16,12 @@ inline constexpr double kPolarRadiusM = kEquatorialRadiusM * (1.0 - kFlattening)
 /// Geodetic to ECEF; error under 10 nm within 1000 km of the surface (GeographicLib::Geocentric).
 [[nodiscard]] Ecef to_ecef(const Geodetic& place);
 
-/// ECEF to geodetic; longitude in -180..180. At the poles longitude is 0, at the Earth's centre latitude is 90.
+/// ECEF to geodetic; longitude in -180..180. At the poles longitude is 0, at the Earth's centre latitude
+/// is 90.
 [[nodiscard]] Geodetic to_geodetic(const Ecef& point);
 
-/// Attitude against the local north-east-down frame, radians: yaw clockwise from true north, pitch nose up, roll
-/// right wing down; applied yaw, then pitch, then roll, each about the axes already turned.
+/// Attitude against the local north-east-down frame, radians: yaw clockwise from true north, pitch nose up,
+/// roll right wing down; applied yaw, then pitch, then roll, each about the axes already turned.
 struct Attitude {
     double yaw_rad = 0.0;
     double pitch_rad = 0.0;

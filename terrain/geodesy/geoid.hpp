@@ -15,9 +15,9 @@ class Geoid;
 
 namespace eyepoint::terrain {
 
-/// The EGM96 geoid, cubic interpolation of a GeographicLib grid held in memory (15-minute grid: about 2 MB; error
-/// against the full model at most 0.169 m, rms 7 mm, by GeographicLib's documentation).
-/// Thread use: const use is safe from any thread (the grid is loaded whole).
+/// The EGM96 geoid, cubic interpolation of a GeographicLib grid held in memory (15-minute grid: about 2 MB;
+/// error against the full model at most 0.169 m, rms 7 mm, by GeographicLib's documentation). Thread use:
+/// const use is safe from any thread (the grid is loaded whole).
 class Geoid {
   public:
     /// Loads a grid in GeographicLib's PGM form. On failure: one sentence naming the file and the remedy.
@@ -34,7 +34,8 @@ class Geoid {
     /// Height of the geoid above the ellipsoid, metres, -107..86.
     [[nodiscard]] double undulation_m(double latitude_deg, double longitude_deg) const;
 
-    [[nodiscard]] EllipsoidalHeight to_ellipsoidal(double latitude_deg, double longitude_deg, MslHeight height) const;
+    [[nodiscard]] EllipsoidalHeight to_ellipsoidal(double latitude_deg, double longitude_deg,
+                                                   MslHeight height) const;
     [[nodiscard]] MslHeight to_msl(double latitude_deg, double longitude_deg, EllipsoidalHeight height) const;
 
   private:

@@ -38,8 +38,8 @@ struct Geodetic {
     EllipsoidalHeight height;
 };
 
-/// Earth-centred, earth-fixed Cartesian position, metres: x through 0 N 0 E, y through 0 N 90 E, z through the
-/// north pole. Always double; only differences to the eye become float.
+/// Earth-centred, earth-fixed Cartesian position, metres: x through 0 N 0 E, y through 0 N 90 E, z through
+/// the north pole. Always double; only differences to the eye become float.
 using Ecef = glm::dvec3;
 
 }  // namespace eyepoint::terrain

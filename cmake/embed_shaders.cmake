@@ -1,0 +1,12 @@
+# Makes OUTPUT, a C++ file that defines eyepoint::ig::shader_text(), from the GLSL files in FOLDER.
+file(GLOB files ${FOLDER}/*.glsl)
+list(SORT files)
+set(text "// Made from ig/render/shaders by cmake/embed_shaders.cmake.\n#include \"ig/render/program.hpp\"\n\n")
+string(APPEND text "namespace eyepoint::ig {\n\nstd::string_view shader_text(std::string_view name) {\n")
+foreach(file ${files})
+    get_filename_component(name ${file} NAME)
+    file(READ ${file} content)
+    string(APPEND text "    if (name == \"${name}\") return R\"glsl(${content})glsl\";\n")
+endforeach()
+string(APPEND text "    return {};\n}\n\n}  // namespace eyepoint::ig\n")
+file(WRITE ${OUTPUT} "${text}")

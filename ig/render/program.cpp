@@ -1,0 +1,68 @@
+#include "ig/render/program.hpp"
+
+#include <array>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace eyepoint::ig {
+
+namespace {
+
+std::string shader_log(GLuint shader) {
+    std::array<char, 2048> text{};
+    GLsizei length = 0;
+    glGetShaderInfoLog(shader, static_cast<GLsizei>(text.size()), &length, text.data());
+    return {text.data(), static_cast<std::size_t>(length)};
+}
+
+std::string program_log(GLuint program) {
+    std::array<char, 2048> text{};
+    GLsizei length = 0;
+    glGetProgramInfoLog(program, static_cast<GLsizei>(text.size()), &length, text.data());
+    return {text.data(), static_cast<std::size_t>(length)};
+}
+
+tl::expected<GlShader, std::string> compile(GLenum stage, std::span<const std::string_view> files) {
+    std::vector<const char*> texts{"#version 450 core\n"};
+    std::vector<GLint> lengths{-1};
+    for (const std::string_view file : files) {
+        const std::string_view text = shader_text(file);
+        texts.push_back(text.data());
+        lengths.push_back(static_cast<GLint>(text.size()));
+    }
+    GlShader shader{stage};
+    glShaderSource(shader.name(), static_cast<GLsizei>(texts.size()), texts.data(), lengths.data());
+    glCompileShader(shader.name());
+    GLint compiled = GL_FALSE;
+    glGetShaderiv(shader.name(), GL_COMPILE_STATUS, &compiled);
+    if (compiled == GL_FALSE) {
+        return tl::unexpected(fmt::format("shader {} does not compile: {}", fmt::join(files, " + "),
+                                          shader_log(shader.name())));
+    }
+    return shader;
+}
+
+}  // namespace
+
+tl::expected<GlProgram, std::string> link_program(std::span<const std::string_view> vertex_files,
+                                                  std::span<const std::string_view> fragment_files) {
+    auto vertex = compile(GL_VERTEX_SHADER, vertex_files);
+    if (!vertex) return tl::unexpected(vertex.error());
+    auto fragment = compile(GL_FRAGMENT_SHADER, fragment_files);
+    if (!fragment) return tl::unexpected(fragment.error());
+    GlProgram program;
+    glAttachShader(program.name(), vertex->name());
+    glAttachShader(program.name(), fragment->name());
+    glLinkProgram(program.name());
+    GLint linked = GL_FALSE;
+    glGetProgramiv(program.name(), GL_LINK_STATUS, &linked);
+    if (linked == GL_FALSE) {
+        return tl::unexpected(fmt::format("shaders {} and {} do not link: {}", fmt::join(vertex_files, " + "),
+                                          fmt::join(fragment_files, " + "), program_log(program.name())));
+    }
+    return program;
+}
+
+}  // namespace eyepoint::ig

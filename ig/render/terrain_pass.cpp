@@ -1,0 +1,126 @@
+#include "ig/render/terrain_pass.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <string_view>
+
+#include "ig/render/noise_texture.hpp"
+#include "ig/render/program.hpp"
+
+namespace eyepoint::ig {
+
+namespace {
+
+constexpr std::uint32_t kFirstSlots = 1024;
+constexpr std::uint32_t kImageLayers = 512;
+/// The noise repeats every side of a tile of this depth (0.044 degrees, about 5 km), the same over the whole
+/// Earth.
+constexpr int kNoiseDepth = 12;
+constexpr double kMetresPerDegree = 111320.0;
+
+double fraction(double value) { return value - std::floor(value); }
+
+const terrain::TileNode* nearest_with_image(const terrain::TileNode& node) {
+    const terrain::TileNode* candidate = &node;
+    while (candidate != nullptr && !(candidate->block && candidate->block->image))
+        candidate = candidate->parent;
+    return candidate;
+}
+
+}  // namespace
+
+tl::expected<TerrainPass, std::string> TerrainPass::create(std::span<const std::uint16_t> indices) {
+    constexpr std::array<std::string_view, 2> kVertex{"frame.glsl", "terrain.vert.glsl"};
+    constexpr std::array<std::string_view, 3> kFragment{"frame.glsl", "atmosphere.glsl", "terrain.frag.glsl"};
+    auto program = link_program(kVertex, kFragment);
+    if (!program) return tl::unexpected(program.error());
+    return TerrainPass{std::move(*program), indices};
+}
+
+TerrainPass::TerrainPass(GlProgram program, std::span<const std::uint16_t> indices)
+    : program_(std::move(program)),
+      noise_(make_noise_texture()),
+      blocks_(kFirstSlots),
+      images_(kImageLayers) {
+    glNamedBufferStorage(indices_.name(), static_cast<GLsizeiptr>(indices.size_bytes()), indices.data(), 0);
+    glVertexArrayElementBuffer(layout_.name(), indices_.name());
+    const auto attribute = [this](GLuint location, std::size_t offset) {
+        glEnableVertexArrayAttrib(layout_.name(), location);
+        glVertexArrayAttribBinding(layout_.name(), location, 0);
+        return static_cast<GLuint>(offset);
+    };
+    using Vertex = terrain::BlockVertex;
+    glVertexArrayAttribFormat(layout_.name(), 0, 3, GL_FLOAT, GL_FALSE, attribute(0, offsetof(Vertex, high)));
+    glVertexArrayAttribFormat(layout_.name(), 1, 3, GL_FLOAT, GL_FALSE, attribute(1, offsetof(Vertex, low)));
+    glVertexArrayAttribFormat(layout_.name(), 2, 4, GL_INT_2_10_10_10_REV, GL_TRUE,
+                              attribute(2, offsetof(Vertex, normal)));
+    glVertexArrayAttribIFormat(layout_.name(), 3, 1, GL_UNSIGNED_INT,
+                               attribute(3, offsetof(Vertex, surface)));
+}
+
+TerrainPass::BlockRecord TerrainPass::describe(const terrain::TileNode& node, std::uint64_t frame) {
+    BlockRecord record{{-1.0F, 1.0F, 0.0F, 0.0F}, {1.0F, 0.0F, 0.0F, 0.0F}};
+    const auto depth = static_cast<int>(node.tile.depth);
+    const double noise_scale = std::ldexp(1.0, kNoiseDepth - depth);
+    record.noise = glm::vec4{glm::dvec4{noise_scale, fraction(node.tile.x * noise_scale),
+                                        fraction(node.tile.y * noise_scale), 0.0}};
+    if (const terrain::TileNode* pictured = nearest_with_image(node)) {
+        const auto layer = images_.layer_of(*pictured->block->image, frame);
+        const double scale = std::ldexp(1.0, static_cast<int>(pictured->tile.depth) - depth);
+        const double texel_m =
+            terrain::tile_side_deg(pictured->tile.depth) / terrain::kImageTexels * kMetresPerDegree;
+        if (layer)
+            record.image =
+                glm::vec4{glm::dvec4{static_cast<double>(*layer), scale, fraction(node.tile.x * scale),
+                                     fraction(node.tile.y * scale)}};
+        record.noise.w = static_cast<float>(texel_m);
+    }
+    return record;
+}
+
+void TerrainPass::upload(const terrain::Selection& selection, std::uint64_t frame) {
+    counts_.clear();
+    offsets_.clear();
+    base_vertices_.clear();
+    for (const terrain::BlockDraw& draw : selection.draws) {
+        const std::uint32_t slot = blocks_.slot_of(*draw.node->block, frame);
+        records_.resize(blocks_.slots());
+        records_[slot] = describe(*draw.node, frame);
+        counts_.push_back(static_cast<GLsizei>(draw.indices.count));
+        offsets_.push_back(reinterpret_cast<const void*>(draw.indices.first * sizeof(std::uint16_t)));
+        base_vertices_.push_back(static_cast<GLint>(slot * terrain::kBlockVertices));
+    }
+    glNamedBufferData(record_buffer_.name(), static_cast<GLsizeiptr>(records_.size() * sizeof(BlockRecord)),
+                      records_.data(), GL_STREAM_DRAW);
+}
+
+FrameStatistics TerrainPass::draw(const terrain::Selection& selection, std::uint64_t frame) {
+    const std::uint64_t blocks_before = blocks_.uploads(), images_before = images_.uploads();
+    upload(selection, frame);
+    glUseProgram(program_.name());
+    glBindVertexArray(layout_.name());
+    glVertexArrayVertexBuffer(layout_.name(), 0, blocks_.vertex_buffer(), 0, sizeof(terrain::BlockVertex));
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, record_buffer_.name());
+    glBindTextureUnit(0, images_.texture());
+    glBindTextureUnit(1, noise_.name());
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GREATER);
+    glEnable(GL_CULL_FACE);
+    glMultiDrawElementsBaseVertex(GL_TRIANGLES, counts_.data(), GL_UNSIGNED_SHORT, offsets_.data(),
+                                  static_cast<GLsizei>(counts_.size()), base_vertices_.data());
+    glDisable(GL_CULL_FACE);
+
+    FrameStatistics statistics;
+    statistics.triangles = selection.triangles;
+    statistics.draws = static_cast<std::uint32_t>(counts_.size());
+    statistics.blocks_drawn = static_cast<std::uint32_t>(selection.draws.size());
+    statistics.blocks_tested = selection.blocks_tested;
+    statistics.blocks_uploaded = static_cast<std::uint32_t>(blocks_.uploads() - blocks_before);
+    constexpr std::uint64_t kImageBytes = std::uint64_t{terrain::kImageTexels} * terrain::kImageTexels * 4;
+    statistics.bytes_uploaded = statistics.blocks_uploaded * BlockStore::kBytesPerBlock +
+                                (images_.uploads() - images_before) * kImageBytes;
+    return statistics;
+}
+
+}  // namespace eyepoint::ig

@@ -1,0 +1,65 @@
+/// The interface every level-of-detail method stands behind: a view in, the meshes to draw out.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "terrain/geodesy/position.hpp"
+#include "terrain/pager/pager.hpp"
+
+namespace eyepoint::terrain {
+
+/// What a method must know of a view.
+struct LodView {
+    Ecef eye{0.0};
+    /// Inward unit normals of the view volume's four sides (left, right, bottom, top), all through the eye.
+    std::array<glm::dvec3, 4> sides{};
+    double kappa_px = 1.0;  ///< pixels per unit of metres over metres at the picture's centre
+    double tau_px = 1.0;    ///< tolerance
+    double near_m = 0.5;    ///< nothing nearer is drawn
+};
+
+/// Triangles of a mesh: part of the method's index list. Indices name vertices of one block.
+struct IndexRange {
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+};
+
+struct BlockDraw {
+    const TileNode* node = nullptr;  ///< its block is loaded
+    IndexRange indices;
+};
+
+/// What to draw, near to far, and what to load. Meshes of neighbouring draws meet without cracks.
+struct Selection {
+    std::vector<BlockDraw> draws;
+    std::vector<BlockRequest> wishes;
+    std::uint64_t triangles = 0;
+    std::uint32_t blocks_tested = 0;
+};
+
+/// Thread use: one thread (the frame's).
+class LodMethod {
+  public:
+    virtual ~LodMethod() = default;
+    [[nodiscard]] virtual std::string_view name() const = 0;
+    /// The index list that selections refer to; constant over the method's life.
+    [[nodiscard]] virtual std::span<const std::uint16_t> indices() const = 0;
+    /// The reference is good until the next call. The frame number grows by one a call.
+    [[nodiscard]] virtual const Selection& select(const LodView& view, TileTree& tree,
+                                                  std::uint64_t frame) = 0;
+};
+
+/// Names that make_lod_method knows.
+[[nodiscard]] std::span<const std::string_view> lod_method_names();
+/// nullptr for an unknown name.
+[[nodiscard]] std::unique_ptr<LodMethod> make_lod_method(std::string_view name);
+
+}  // namespace eyepoint::terrain

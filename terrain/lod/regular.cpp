@@ -1,0 +1,215 @@
+#include "terrain/lod/regular.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace eyepoint::terrain {
+
+namespace {
+
+/// log2 of the posts a side of the Earth's half circle: a tile's depth, plus the five halvings in its block.
+constexpr int kBlockHalvings = 5;
+
+int resolution(const TileNode& node) {
+    return static_cast<int>(node.tile.depth) + kBlockHalvings - node.mark.level;
+}
+
+/// The two children of a tile that touch an edge, first the one nearer the edge's start (south or west).
+std::array<std::size_t, 2> children_at(Edge edge) {
+    switch (edge) {
+        case Edge::West:
+            return {0, 2};
+        case Edge::East:
+            return {1, 3};
+        case Edge::South:
+            return {0, 1};
+        case Edge::North:
+            return {2, 3};
+    }
+    return {};
+}
+
+Edge opposite(Edge edge) {
+    switch (edge) {
+        case Edge::West:
+            return Edge::East;
+        case Edge::East:
+            return Edge::West;
+        case Edge::South:
+            return Edge::North;
+        case Edge::North:
+            return Edge::South;
+    }
+    return edge;
+}
+
+}  // namespace
+
+struct RegularLod::Frame {
+    const LodView& view;
+    TileTree& tree;
+    std::uint64_t number;
+    HorizonOccluder horizon;
+
+    [[nodiscard]] bool in_cut(const TileNode& node) const { return node.mark.frame == number; }
+
+    [[nodiscard]] bool sees(const TileBounds& bounds) const {
+        const auto beyond = [&](const glm::dvec3& side) { return outside(bounds, view.eye, side); };
+        return std::none_of(view.sides.begin(), view.sides.end(), beyond) && !horizon.hides(bounds);
+    }
+
+    /// Screen error of a geometric error of this tile, pixels.
+    [[nodiscard]] double error_px(const TileNode& node, int level) const {
+        return view.kappa_px * node.info.delta_m[static_cast<std::size_t>(level)] /
+               std::max(node.mark.distance_m, view.near_m);
+    }
+
+    /// The leaf of the cut that covers a tile, or the tile's own node when the cut goes deeper there.
+    [[nodiscard]] TileNode& covering(TileId tile) const {
+        TileNode* node = &tree.roots()[ancestor(tile, 0).x];
+        while (node->mark.split && node->tile.depth < tile.depth) {
+            node =
+                &(*node->children)[static_cast<std::size_t>(quadrant(ancestor(tile, node->tile.depth + 1)))];
+        }
+        return *node;
+    }
+
+    /// The visible leaves across an edge: one at most as deep as the tile, or the two of the next depth, in
+    /// the order of the edge's halves; absent ones are nullptr. When one leaf covers the whole edge it is in
+    /// both places.
+    [[nodiscard]] std::array<TileNode*, 2> across(const TileNode& node, Edge edge) const {
+        const auto beside = neighbour(node.tile, edge);
+        if (!beside) return {nullptr, nullptr};
+        TileNode& cover = covering(*beside);
+        if (!cover.mark.split) {
+            TileNode* leaf = cover.mark.visible ? &cover : nullptr;
+            return {leaf, leaf};
+        }
+        std::array<TileNode*, 2> leaves{};
+        const auto touching = children_at(opposite(edge));
+        for (std::size_t half = 0; half < 2; ++half) {
+            TileNode& leaf = (*cover.children)[touching[half]];
+            leaves[half] = leaf.mark.visible && !leaf.mark.split ? &leaf : nullptr;
+        }
+        return leaves;
+    }
+};
+
+const Selection& RegularLod::select(const LodView& view, TileTree& tree, std::uint64_t frame_number) {
+    Frame frame{view, tree, frame_number, HorizonOccluder{view.eye, tree.lowest_height_m()}};
+    selection_.draws.clear();
+    selection_.wishes.clear();
+    selection_.triangles = 0;
+    selection_.blocks_tested = 0;
+    leaves_.clear();
+    cut(frame);
+    choose_levels(frame);
+    balance(frame);
+    emit(frame);
+    return selection_;
+}
+
+void RegularLod::cut(Frame& frame) {
+    by_depth_.resize(kMaxDepth + 2);
+    for (TileNode& root : frame.tree.roots()) visit(frame, root);
+    // A split forced on a coarser neighbour adds tiles of a depth already passed: go back to it.
+    for (std::size_t depth = 0; depth < by_depth_.size();) {
+        if (by_depth_[depth].empty()) {
+            ++depth;
+            continue;
+        }
+        TileNode& node = *by_depth_[depth].back();
+        by_depth_[depth].pop_back();
+        if (node.mark.split || frame.error_px(node, 0) <= frame.view.tau_px) continue;
+        const bool deeper = split(frame, node);
+        if (deeper) depth = 0;
+    }
+}
+
+/// Enters a tile into the cut as a leaf.
+void RegularLod::visit(Frame& frame, TileNode& node) {
+    ++selection_.blocks_tested;
+    node.used_frame = frame.number;
+    node.mark = {frame.number, distance_m(node.bounds, frame.view.eye), 0, false, frame.sees(node.bounds)};
+    if (!node.mark.visible) return;
+    by_depth_[node.tile.depth].push_back(&node);
+    leaves_.push_back(&node);
+}
+
+/// Replaces a leaf by its children, after its coarser neighbours; false when blocks are missing for that.
+bool RegularLod::split(Frame& frame, TileNode& node) {
+    const auto children = frame.tree.children(node);
+    if (children.empty()) return false;
+    bool loaded = true;
+    for (TileNode& child : children) {
+        child.used_frame = frame.number;
+        if (child.block) continue;
+        loaded = false;
+        if (child.unreadable || child.wished_frame == frame.number) continue;
+        child.wished_frame = frame.number;
+        selection_.wishes.push_back({&child, frame.error_px(node, 0)});
+    }
+    if (!loaded) return false;
+    for (const Edge edge : kEdges) {
+        const auto beside = neighbour(node.tile, edge);
+        if (!beside) continue;
+        for (TileNode* cover = &frame.covering(*beside);
+             cover->mark.visible && cover->tile.depth < node.tile.depth && !cover->mark.split;
+             cover = &frame.covering(*beside)) {
+            if (!split(frame, *cover)) return false;
+        }
+    }
+    node.mark.split = true;
+    for (TileNode& child : children) visit(frame, child);
+    return true;
+}
+
+void RegularLod::choose_levels(Frame& frame) {
+    std::erase_if(leaves_, [](const TileNode* node) { return node->mark.split; });
+    for (TileNode* node : leaves_) {
+        int level = kRegularLevels - 1;
+        while (level > 0 && frame.error_px(*node, level) > frame.view.tau_px) --level;
+        node->mark.level = static_cast<std::int8_t>(level);
+    }
+}
+
+void RegularLod::balance(Frame& frame) {
+    by_resolution_.resize(kMaxDepth + kBlockHalvings + 1);
+    for (TileNode* node : leaves_)
+        by_resolution_[static_cast<std::size_t>(resolution(*node))].push_back(node);
+    for (auto at = static_cast<int>(by_resolution_.size()) - 1; at >= 0; --at) {
+        auto& bucket = by_resolution_[static_cast<std::size_t>(at)];
+        for (const TileNode* node : bucket) {
+            if (resolution(*node) != at) continue;  // raised since it was put here
+            for (const Edge edge : kEdges) {
+                for (TileNode* beside : frame.across(*node, edge)) {
+                    if (beside == nullptr || resolution(*beside) >= at - 1) continue;
+                    beside->mark.level = static_cast<std::int8_t>(static_cast<int>(beside->tile.depth) +
+                                                                  kBlockHalvings - (at - 1));
+                    by_resolution_[static_cast<std::size_t>(at - 1)].push_back(beside);
+                }
+            }
+        }
+        bucket.clear();
+    }
+}
+
+void RegularLod::emit(Frame& frame) {
+    std::sort(leaves_.begin(), leaves_.end(),
+              [](const TileNode* a, const TileNode* b) { return a->mark.distance_m < b->mark.distance_m; });
+    for (const TileNode* node : leaves_) {
+        unsigned thinned = 0;
+        for (std::size_t edge = 0; edge < kEdges.size(); ++edge) {
+            const auto beside = frame.across(*node, kEdges[edge]);
+            for (std::size_t half = 0; half < 2; ++half) {
+                const bool coarser = beside[half] != nullptr && resolution(*beside[half]) < resolution(*node);
+                thinned |= coarser ? 1U << (edge * 2 + half) : 0U;
+            }
+        }
+        const IndexRange range = meshes_.range(node->mark.level, static_cast<std::uint8_t>(thinned));
+        selection_.draws.push_back({node, range});
+        selection_.triangles += range.count / 3;
+    }
+}
+
+}  // namespace eyepoint::terrain

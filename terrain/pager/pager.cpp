@@ -1,0 +1,161 @@
+#include "terrain/pager/pager.hpp"
+
+#include <algorithm>
+
+#include "terrain/database/virtual_tile.hpp"
+
+namespace eyepoint::terrain {
+
+namespace {
+
+/// A block is kept this many frames after its last use even over budget: a view that flickers between two
+/// tiles must not load them over and over.
+constexpr std::uint64_t kKeepFrames = 60;
+
+bool has_loaded_child(const TileNode& node) {
+    return node.children && std::any_of(node.children->begin(), node.children->end(),
+                                        [](const TileNode& child) { return child.block != nullptr; });
+}
+
+/// Blocks that could go: loaded, not a root, no loaded child that was made from it or stands below it.
+void collect_unused(TileNode& node, std::uint64_t before_frame, std::vector<TileNode*>& unused) {
+    if (node.children) {
+        for (TileNode& child : *node.children) collect_unused(child, before_frame, unused);
+    }
+    if (node.block && node.parent != nullptr && node.used_frame < before_frame && !has_loaded_child(node)) {
+        unused.push_back(&node);
+    }
+}
+
+}  // namespace
+
+tl::expected<std::unique_ptr<Pager>, std::string> Pager::create(std::shared_ptr<const Database> database,
+                                                                const PagerOptions& options) {
+    std::unique_ptr<Pager> pager{new Pager(std::move(database), options)};
+    for (TileNode& root : pager->tree_.roots()) {
+        Finished finished{root.tile, true, pager->load({root.tile, true, root.info.has_image, nullptr, 0.0})};
+        if (!finished.block) return tl::unexpected(finished.block.error());
+        pager->place(std::move(finished), 0);
+    }
+    for (unsigned i = 0; i < std::max(options.threads, 1U); ++i) {
+        pager->threads_.emplace_back([raw = pager.get()](const std::stop_token& stop) { raw->run(stop); });
+    }
+    return pager;
+}
+
+Pager::Pager(std::shared_ptr<const Database> database, const PagerOptions& options)
+    : database_(std::move(database)), options_(options), tree_(database_) {}
+
+Pager::~Pager() {
+    for (std::jthread& thread : threads_) thread.request_stop();
+    work_.notify_all();
+}
+
+void Pager::request(std::span<const BlockRequest> wishes) {
+    const std::scoped_lock lock(mutex_);
+    queue_.clear();
+    for (const BlockRequest& wish : wishes) {
+        const TileNode& node = *wish.node;
+        const bool known = node.unreadable || node.block || under_way_.contains(node.tile);
+        if (known || node.parent == nullptr || !node.parent->block) continue;
+        queue_.push_back({node.tile, node.stored, node.info.has_image, node.parent->block, wish.priority});
+    }
+    std::sort(queue_.begin(), queue_.end(),
+              [](const Job& a, const Job& b) { return a.priority < b.priority; });
+    if (!queue_.empty()) work_.notify_all();
+}
+
+void Pager::run(const std::stop_token& stop) {
+    while (true) {
+        Job job;
+        {
+            std::unique_lock lock(mutex_);
+            if (!work_.wait(lock, stop, [this] { return !queue_.empty(); })) return;
+            job = std::move(queue_.back());
+            queue_.pop_back();
+            under_way_.insert(job.tile);
+        }
+        Finished finished{job.tile, job.stored, load(job)};
+        {
+            const std::scoped_lock lock(mutex_);
+            finished_.push_back(std::move(finished));
+        }
+        done_.notify_all();
+    }
+}
+
+tl::expected<std::shared_ptr<const Block>, std::string> Pager::load(const Job& job) const {
+    if (!job.stored) {
+        return unfold(subdivide(job.parent->data, quadrant(job.tile), database_->manifest().height_step_m),
+                      std::nullopt);
+    }
+    auto data = database_->read_block(job.tile);
+    if (!data) return tl::unexpected(data.error());
+    if (!job.has_image) return unfold(std::move(*data), std::nullopt);
+    auto image = database_->read_image(job.tile);
+    if (!image) return tl::unexpected(image.error());
+    return unfold(std::move(*data), std::move(*image));
+}
+
+std::size_t Pager::publish(std::size_t most_blocks, std::uint64_t frame) {
+    std::vector<Finished> ready;
+    {
+        const std::scoped_lock lock(mutex_);
+        const auto count = static_cast<std::ptrdiff_t>(std::min(most_blocks, finished_.size()));
+        std::move(finished_.begin(), finished_.begin() + count, std::back_inserter(ready));
+        finished_.erase(finished_.begin(), finished_.begin() + count);
+        for (const Finished& finished : ready) under_way_.erase(finished.tile);
+    }
+    const std::size_t published = ready.size();
+    for (Finished& finished : ready) place(std::move(finished), frame);
+    if (counters_.bytes > options_.cache_bytes) evict(frame);
+    return published;
+}
+
+void Pager::place(Finished finished, std::uint64_t frame) {
+    TileNode* node = tree_.find(finished.tile);
+    if (node == nullptr) return;
+    if (!finished.block) {
+        node->unreadable = true;
+        ++counters_.unreadable;
+        faults_.push_back(std::move(finished.block.error()));
+        return;
+    }
+    node->block = std::move(*finished.block);
+    node->used_frame = frame;
+    ++counters_.loaded;
+    ++counters_.blocks;
+    counters_.interpolated += finished.stored ? 0 : 1;
+    counters_.bytes += node->block->bytes();
+}
+
+void Pager::evict(std::uint64_t frame) {
+    std::vector<TileNode*> unused;
+    if (frame < kKeepFrames) return;
+    for (TileNode& root : tree_.roots()) collect_unused(root, frame - kKeepFrames, unused);
+    std::sort(unused.begin(), unused.end(),
+              [](const TileNode* a, const TileNode* b) { return a->used_frame < b->used_frame; });
+    for (TileNode* node : unused) {
+        if (counters_.bytes <= options_.cache_bytes) return;
+        counters_.bytes -= node->block->bytes();
+        --counters_.blocks;
+        ++counters_.evicted;
+        node->block.reset();
+    }
+}
+
+bool Pager::wait_for_load() {
+    std::unique_lock lock(mutex_);
+    const auto nothing_under_way = [this] { return queue_.empty() && under_way_.size() == finished_.size(); };
+    done_.wait(lock, [&] { return !finished_.empty() || nothing_under_way(); });
+    return !finished_.empty();
+}
+
+std::size_t Pager::pending() const {
+    const std::scoped_lock lock(mutex_);
+    return queue_.size() + under_way_.size();
+}
+
+std::vector<std::string> Pager::take_faults() { return std::exchange(faults_, {}); }
+
+}  // namespace eyepoint::terrain

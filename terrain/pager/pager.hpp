@@ -1,0 +1,102 @@
+/// The pager: loads blocks on its own threads, most wanted first, within a memory budget. The frame never
+/// waits.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <string>
+#include <thread>
+#include <unordered_set>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "terrain/pager/tile_tree.hpp"
+
+namespace eyepoint::terrain {
+
+struct PagerOptions {
+    unsigned threads = 1;
+    /// Loaded blocks kept, bytes. Blocks in use are never dropped, so a view that needs more gets more.
+    std::uint64_t cache_bytes = 512ULL << 20;
+};
+
+/// A tile that a view would draw if it were loaded. Its parent's block is loaded.
+struct BlockRequest {
+    TileNode* node = nullptr;
+    double priority = 0.0;  ///< greater is sooner
+};
+
+struct PagerCounters {
+    std::uint64_t loaded = 0;
+    std::uint64_t interpolated = 0;  ///< of loaded: made from the parent, not read
+    std::uint64_t unreadable = 0;
+    std::uint64_t evicted = 0;
+    std::uint64_t blocks = 0;  ///< in memory now
+    std::uint64_t bytes = 0;   ///< in memory now
+};
+
+/// Thread use: every member from one thread (the frame's); the loader threads are inside.
+class Pager {
+  public:
+    /// Loads the two root blocks before it returns; fails with one sentence if they cannot be read.
+    [[nodiscard]] static tl::expected<std::unique_ptr<Pager>, std::string> create(
+        std::shared_ptr<const Database> database, const PagerOptions& options);
+    ~Pager();
+    Pager(const Pager&) = delete;
+    Pager& operator=(const Pager&) = delete;
+
+    [[nodiscard]] TileTree& tree() { return tree_; }
+
+    /// Replaces the list of wishes. Loads that have begun go on.
+    void request(std::span<const BlockRequest> wishes);
+    /// Hands at most so many finished blocks to the tree, drops the longest unused beyond the budget, and
+    /// returns how many tiles became drawable or known to be unreadable.
+    std::size_t publish(std::size_t most_blocks, std::uint64_t frame);
+    /// Waits until a load has finished or none is under way or wished for; true if one has finished.
+    bool wait_for_load();
+    /// Wishes and loads under way, and finished ones not yet published.
+    [[nodiscard]] std::size_t pending() const;
+    [[nodiscard]] const PagerCounters& counters() const { return counters_; }
+    /// Sentences about tiles that could not be read, each tile once; taken, they are gone.
+    [[nodiscard]] std::vector<std::string> take_faults();
+
+  private:
+    struct Job {
+        TileId tile;
+        bool stored = false;
+        bool has_image = false;
+        std::shared_ptr<const Block> parent;
+        double priority = 0.0;
+    };
+    struct Finished {
+        TileId tile;
+        bool stored = false;
+        tl::expected<std::shared_ptr<const Block>, std::string> block;
+    };
+
+    Pager(std::shared_ptr<const Database> database, const PagerOptions& options);
+    void run(const std::stop_token& stop);
+    [[nodiscard]] tl::expected<std::shared_ptr<const Block>, std::string> load(const Job& job) const;
+    void place(Finished finished, std::uint64_t frame);
+    void evict(std::uint64_t frame);
+
+    std::shared_ptr<const Database> database_;
+    PagerOptions options_;
+    TileTree tree_;
+    PagerCounters counters_;
+    std::vector<std::string> faults_;
+
+    mutable std::mutex mutex_;
+    std::condition_variable_any work_;
+    std::condition_variable done_;
+    std::vector<Job> queue_;  ///< least wanted first
+    std::unordered_set<TileId, TileHash> under_way_;
+    std::vector<Finished> finished_;
+    std::vector<std::jthread> threads_;  ///< last: they stop before what they use is gone
+};
+
+}  // namespace eyepoint::terrain

@@ -1,0 +1,49 @@
+#include "terrain/pager/tile_tree.hpp"
+
+#include <algorithm>
+
+#include "terrain/database/virtual_tile.hpp"
+
+namespace eyepoint::terrain {
+
+TileTree::TileTree(std::shared_ptr<const Database> database) : database_(std::move(database)) {
+    for (std::uint32_t x = 0; x < roots_.size(); ++x) {
+        describe(roots_[x], {0, x, 0}, nullptr);
+        lowest_height_m_ = std::min(lowest_height_m_, static_cast<double>(roots_[x].info.height_min_m));
+    }
+}
+
+void TileTree::describe(TileNode& node, TileId tile, TileNode* parent) const {
+    node.tile = tile;
+    node.parent = parent;
+    if (const NodeInfo* info = database_->find(tile)) {
+        node.stored = true;
+        node.info = *info;
+    } else {
+        node.info = subdivide(parent->info, tile);
+    }
+    node.bounds = tile_bounds(tile, node.info.height_min_m, node.info.height_max_m);
+}
+
+std::span<TileNode> TileTree::children(TileNode& node) {
+    if (!node.children) {
+        const auto deepest = database_->manifest().max_depth + kMaxInterpolatedDepths;
+        if (node.tile.depth >= std::min<std::uint32_t>(deepest, kMaxDepth)) return {};
+        node.children = std::make_unique<std::array<TileNode, 4>>();
+        for (int quadrant = 0; quadrant < 4; ++quadrant) {
+            describe((*node.children)[static_cast<std::size_t>(quadrant)], child(node.tile, quadrant), &node);
+        }
+    }
+    return *node.children;
+}
+
+TileNode* TileTree::find(TileId tile) {
+    TileNode* node = &roots_[ancestor(tile, 0).x];
+    while (node->tile.depth < tile.depth) {
+        if (!node->children) return nullptr;
+        node = &(*node->children)[static_cast<std::size_t>(quadrant(ancestor(tile, node->tile.depth + 1)))];
+    }
+    return node;
+}
+
+}  // namespace eyepoint::terrain

@@ -1,0 +1,65 @@
+/// The quadtree of tiles as far as it has been looked at: what is known of each tile, and its block once
+/// loaded.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "terrain/block/block.hpp"
+#include "terrain/database/database.hpp"
+#include "terrain/tiling/tile_bounds.hpp"
+
+namespace eyepoint::terrain {
+
+/// Scratch space of the LOD method for the frame it works on; meaningless between frames.
+struct LodMark {
+    std::uint64_t frame = 0;
+    double distance_m = 0.0;
+    std::int8_t level = 0;
+    bool split = false;
+    bool visible = false;
+};
+
+struct TileNode {
+    TileId tile;
+    NodeInfo info;
+    TileBounds bounds;
+    TileNode* parent = nullptr;
+    bool stored = false;                 ///< in the database; else interpolated from its parent's block
+    bool unreadable = false;             ///< loading failed: its ancestor stands in for it
+    std::shared_ptr<const Block> block;  ///< nullptr until loaded
+    std::uint64_t used_frame = 0;        ///< the last frame that looked at it
+    std::uint64_t wished_frame = 0;      ///< the last frame that asked for its block
+    LodMark mark;
+    std::unique_ptr<std::array<TileNode, 4>> children;  ///< nullptr until looked at
+};
+
+/// Owns the nodes; they stay where they are as long as the tree lives.
+/// Below the database's leaves the tree goes on with interpolated tiles, so that the curve of the Earth is
+/// followed wherever an eye goes, to kMaxInterpolatedDepths below. Thread use: one thread (the frame's).
+class TileTree {
+  public:
+    explicit TileTree(std::shared_ptr<const Database> database);
+
+    static constexpr int kMaxInterpolatedDepths = 12;
+
+    [[nodiscard]] std::span<TileNode, 2> roots() { return roots_; }
+    /// The four children of a node, or none at the end of the tree. Makes their nodes on first sight.
+    [[nodiscard]] std::span<TileNode> children(TileNode& node);
+    /// The node of a tile if it has been looked at, else nullptr.
+    [[nodiscard]] TileNode* find(TileId tile);
+    /// Lowest ellipsoidal height of all terrain, metres.
+    [[nodiscard]] double lowest_height_m() const { return lowest_height_m_; }
+
+  private:
+    void describe(TileNode& node, TileId tile, TileNode* parent) const;
+
+    std::shared_ptr<const Database> database_;
+    std::array<TileNode, 2> roots_;
+    double lowest_height_m_ = 0.0;
+};
+
+}  // namespace eyepoint::terrain
