@@ -1,0 +1,57 @@
+#include "ig/frame_clock.hpp"
+
+#include <cerrno>
+#include <cmath>
+#include <ctime>
+
+namespace eyepoint::ig {
+
+namespace {
+
+constexpr std::int64_t kNsPerSecond = 1'000'000'000;
+
+std::int64_t read_clock_ns(clockid_t id) {
+    timespec now{};
+    clock_gettime(id, &now);
+    return now.tv_sec * kNsPerSecond + now.tv_nsec;
+}
+
+}  // namespace
+
+std::int64_t SystemClock::now_ns() { return read_clock_ns(CLOCK_MONOTONIC); }
+
+std::int64_t SystemClock::realtime_ns() { return read_clock_ns(CLOCK_REALTIME); }
+
+void SystemClock::sleep_until(std::int64_t deadline_ns) {
+    const timespec deadline{deadline_ns / kNsPerSecond, deadline_ns % kNsPerSecond};
+    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &deadline, nullptr) == EINTR) {
+    }
+}
+
+FrameClock::FrameClock(Clock& clock, double rate_hz)
+    : clock_(clock), period_ns_(kNsPerSecond / rate_hz), start_ns_(clock.now_ns()) {}
+
+std::int64_t FrameClock::deadline_ns(std::uint64_t slot) const {
+    return start_ns_ + std::llround(static_cast<double>(slot - start_slot_) * period_ns_);
+}
+
+FrameTick FrameClock::wait() {
+    FrameTick tick{.slot = next_slot_, .deadline_ns = deadline_ns(next_slot_), .missed = 0};
+    const std::int64_t now_ns = clock_.now_ns();
+    if (now_ns > tick.deadline_ns && tick.slot > start_slot_) {
+        const auto periods_late = std::ceil(static_cast<double>(now_ns - tick.deadline_ns) / period_ns_);
+        tick.missed = static_cast<std::uint64_t>(periods_late);
+        tick.slot += tick.missed;
+        tick.deadline_ns = deadline_ns(tick.slot);
+    }
+    clock_.sleep_until(tick.deadline_ns);
+    next_slot_ = tick.slot + 1;
+    return tick;
+}
+
+void FrameClock::restart() {
+    start_ns_ = clock_.now_ns();
+    start_slot_ = next_slot_;
+}
+
+}  // namespace eyepoint::ig

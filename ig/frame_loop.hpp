@@ -1,0 +1,86 @@
+/// The frame loop: one channel's life from the first deadline to the last.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <tl/expected.hpp>
+
+#include "config/settings.hpp"
+#include "ig/drop_log.hpp"
+#include "ig/eyepoint.hpp"
+#include "ig/frame_buffer.hpp"
+#include "ig/frame_clock.hpp"
+#include "ig/frame_record.hpp"
+#include "ig/output/output.hpp"
+#include "ig/run_summary.hpp"
+#include "ig/scene.hpp"
+#include "net/host_link.hpp"
+
+namespace eyepoint::ig {
+
+/// Draws frames until one of these: stop is asked for, `frames` are drawn, the host has been silent for
+/// end_after_silence_s since its last valid packet, the window is closed, or an output fails.
+///
+/// Until the host has placed the vehicle nothing is drawn, shown, recorded or counted; only Start Of Frame is
+/// sent. The first eye's terrain is then loaded whole before the first frame, so that no picture shows less
+/// than there is; deadlines passed in that time are not missed ones. From then on every deadline draws the
+/// newest eye, also when the host pauses. Thread use: the thread of the GL context.
+class FrameLoop {
+  public:
+    /// What the loop works with; nothing is owned, all outlive it.
+    struct Parts {
+        Scene& scene;
+        net::HostLink& host;
+        Output& output;
+        FrameRecord* record = nullptr;  ///< may be null
+        Clock& clock;
+        const terrain::Geoid* geoid = nullptr;
+        std::function<bool()> stop_requested;
+        std::function<void(std::string_view)> warn;
+    };
+
+    FrameLoop(const config::Settings& settings, Parts parts, FrameBuffer frame_buffer);
+
+    /// On failure: one sentence; the summary holds what was drawn until then.
+    [[nodiscard]] tl::expected<void, std::string> run();
+
+    [[nodiscard]] const RunSummary& summary() const { return summary_; }
+    /// From the first frame's deadline until now or the end, seconds; 0 before it.
+    [[nodiscard]] double seconds() const;
+
+  private:
+    struct FrameStart;
+
+    [[nodiscard]] bool ended();
+    [[nodiscard]] bool host_silent();
+    void hear_host();
+    void answer_host();
+    [[nodiscard]] tl::expected<void, std::string> follow_output_size();
+    [[nodiscard]] std::optional<Eyepoint> newest_eye() const;
+    void begin_flight(const Eyepoint& first);
+    [[nodiscard]] tl::expected<void, std::string> fly(const Eyepoint& eyepoint, const FrameTick& tick,
+                                                      const FrameStart& start);
+    [[nodiscard]] tl::expected<FrameEntry, std::string> draw(const Eyepoint& eyepoint,
+                                                             const FrameStart& start);
+    [[nodiscard]] tl::expected<void, std::string> record(const FrameEntry& entry);
+
+    config::Settings settings_;
+    EyepointReading reading_;
+    Parts parts_;
+    FrameBuffer frame_buffer_;
+    FrameClock frame_clock_;
+    RunSummary summary_;
+    DropLog drop_log_;
+    std::uint32_t ticks_ = 0;
+    std::int64_t begin_ns_ = 0;
+    std::int64_t last_heard_ns_ = 0;
+    std::int64_t drawn_arrival_ns_ = 0;
+    bool flying_ = false;
+    std::optional<std::int64_t> first_deadline_ns_;
+};
+
+}  // namespace eyepoint::ig

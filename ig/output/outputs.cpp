@@ -1,0 +1,32 @@
+#include "ig/output/outputs.hpp"
+
+namespace eyepoint::ig {
+
+tl::expected<void, std::string> PictureOutput::show(const FrameBuffer& frame, const FrameMoment& moment) {
+    if (moment.time_s < next_s_) return {};
+    while (every_s_ > 0.0 && next_s_ <= moment.time_s) next_s_ += every_s_;
+    frame.read(picture_);
+    return folder_.write(picture_, moment.frame);
+}
+
+tl::expected<void, std::string> VideoOutput::show(const FrameBuffer& frame, const FrameMoment& moment) {
+    for (; next_slot_ && *next_slot_ < moment.slot; ++*next_slot_) {
+        if (auto repeated = pipe_.write(picture_); !repeated) return repeated;
+    }
+    next_slot_ = moment.slot + 1;
+    frame.read(picture_);
+    return pipe_.write(picture_);
+}
+
+tl::expected<void, std::string> WindowOutput::show(const FrameBuffer& frame, const FrameMoment&) {
+    frame.blit_to_window(window_.size());
+    window_.swap();
+    return {};
+}
+
+bool WindowOutput::keep_going() {
+    window_.handle_events();
+    return !window_.close_requested();
+}
+
+}  // namespace eyepoint::ig

@@ -1,0 +1,29 @@
+#include "ig/process_usage.hpp"
+
+#include <ctime>
+
+#include <sys/resource.h>
+
+namespace eyepoint::ig {
+
+namespace {
+
+double read_cpu_ms(clockid_t id) {
+    timespec used{};
+    clock_gettime(id, &used);
+    return static_cast<double>(used.tv_sec) * 1e3 + static_cast<double>(used.tv_nsec) * 1e-6;
+}
+
+}  // namespace
+
+double process_cpu_ms() { return read_cpu_ms(CLOCK_PROCESS_CPUTIME_ID); }
+
+double thread_cpu_ms() { return read_cpu_ms(CLOCK_THREAD_CPUTIME_ID); }
+
+std::uint64_t peak_resident_bytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+}  // namespace eyepoint::ig

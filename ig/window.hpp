@@ -1,0 +1,55 @@
+/// A window on the display, with an OpenGL context.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <tl/expected.hpp>
+
+#include "ig/gl_identity.hpp"
+#include "ig/picture.hpp"
+
+struct GLFWwindow;
+
+namespace eyepoint::ig {
+
+/// A GLFW window whose OpenGL 4.5 core context (through EGL) is current on the thread that made it. It can be
+/// resized; Esc or the window's close button ask for the end. Frames are shown without waiting for the
+/// display's refresh: the frame clock alone paces. One at a time in a process. Thread use: the main thread.
+class Window {
+  public:
+    struct Options {
+        std::string title;
+        PictureSize size;
+        bool debug = false;  ///< a debug context, for log_gl_messages()
+    };
+
+    /// On failure (no display, no 4.5 core): one sentence with the remedy.
+    [[nodiscard]] static tl::expected<Window, std::string> create(const Options& options);
+
+    [[nodiscard]] const GlIdentity& identity() const { return identity_; }
+    /// Of the drawable area, pixels; at least 1x1, also while the window is an icon.
+    [[nodiscard]] PictureSize size() const;
+    [[nodiscard]] bool close_requested() const;
+    /// Takes in the keyboard and the window's events; once a frame.
+    void handle_events();
+    /// Shows what has been drawn into the default framebuffer.
+    void swap();
+
+  private:
+    /// The library is shut down after the window is gone.
+    struct Library {
+        bool ready = false;
+        Library();
+        ~Library();
+    };
+    struct Destroy {
+        void operator()(GLFWwindow* window) const;
+    };
+
+    std::unique_ptr<Library> library_;
+    std::unique_ptr<GLFWwindow, Destroy> window_;
+    GlIdentity identity_;
+};
+
+}  // namespace eyepoint::ig
