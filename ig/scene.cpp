@@ -4,7 +4,6 @@
 #include <utility>
 
 #include <glm/geometric.hpp>
-#include <spdlog/spdlog.h>
 
 #include "ig/render/frame_uniforms.hpp"
 #include "ig/render/sky_pass.hpp"
@@ -51,10 +50,10 @@ class TerrainScene final : public Scene {
     FrameStatistics draw(const View& view) override;
     std::uint64_t load_all(const View& view) override;
     void set_options(const SceneOptions& options) override { options_ = options; }
+    std::vector<std::string> take_faults() override { return pager_->take_faults(); }
 
   private:
     [[nodiscard]] const terrain::Selection& select(const View& view);
-    void report_faults();
 
     SceneOptions options_;
     std::unique_ptr<terrain::Pager> pager_;
@@ -75,7 +74,6 @@ const terrain::Selection& TerrainScene::select(const View& view) {
 
 FrameStatistics TerrainScene::draw(const View& view) {
     (void)pager_->publish(kBlocksPublishedPerFrame, frame_);
-    report_faults();
     const double start_ms = thread_cpu_ms();
     const terrain::Selection& selection = select(view);
     const double selection_ms = thread_cpu_ms() - start_ms;
@@ -102,16 +100,10 @@ std::uint64_t TerrainScene::load_all(const View& view) {
     constexpr std::size_t kAll = static_cast<std::size_t>(-1);
     while (true) {
         (void)pager_->publish(kAll, frame_);
-        report_faults();
         (void)select(view);
         if (!pager_->wait_for_load()) break;
     }
     return pager_->counters().loaded - before;
-}
-
-void TerrainScene::report_faults() {
-    for (const std::string& fault : pager_->take_faults())
-        spdlog::warn("terrain: {}; drawn from its ancestor", fault);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <glm/vec3.hpp>
 #include <tl/expected.hpp>
@@ -46,6 +47,10 @@ class Scene {
     virtual std::uint64_t load_all(const View& view) = 0;
 
     virtual void set_options(const SceneOptions& options) = 0;
+
+    /// Sentences about tiles that could not be read since the last call, each tile once; an ancestor is drawn
+    /// there.
+    [[nodiscard]] virtual std::vector<std::string> take_faults() = 0;
 };
 
 }  // namespace eyepoint::ig

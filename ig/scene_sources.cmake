@@ -14,5 +14,6 @@ target_sources(eyepoint_ig PRIVATE
     render/program.cpp
     render/sky_pass.cpp
     render/terrain_pass.cpp
+    recorded_flight.cpp
     scene.cpp
 )

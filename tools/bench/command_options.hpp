@@ -1,0 +1,22 @@
+/// What the bench's commands have in common on their command lines.
+#pragma once
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "tools/bench/bench_run.hpp"
+
+namespace eyepoint::tools {
+
+/// Ends the program with exit code 1 and one line on the standard error.
+[[noreturn]] void fail(const std::string& sentence);
+
+/// --terrain, --size, --tau, --lod, --pictures, --every, --record, --sentinel. `options` outlives the
+/// parsing.
+void add_drawing_options(CLI::App& command, BenchOptions& options, bool terrain_required);
+
+void add_flight_command(CLI::App& program);
+void add_field_command(CLI::App& program);
+
+}  // namespace eyepoint::tools

@@ -1,0 +1,77 @@
+/// eyepoint-bench flight: a recorded flight, drawn as fast as it goes.
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "config/settings.hpp"
+#include "net/pcap_file.hpp"
+#include "terrain/geodesy/geoid.hpp"
+#include "tools/bench/command_options.hpp"
+
+namespace eyepoint::tools {
+
+namespace {
+
+struct FlightRequest {
+    BenchOptions drawing;
+    std::filesystem::path flight;
+    double rate_hz = 30.0;
+    double vertical_fov_deg = config::ViewSettings{}.vertical_fov_deg;
+    bool ellipsoid = false;
+    bool streaming = false;
+    double from_s = 0.0;
+    double until_s = 1e9;
+};
+
+void run(const FlightRequest& request) {
+    const auto recording = net::read_pcap(request.flight);
+    if (!recording) fail(recording.error());
+    const auto port = ig::busiest_port(*recording);
+    if (!port) fail(request.flight.string() + " holds no UDP datagram; record one with eyepoint-replay");
+    const auto geoid = terrain::Geoid::load(terrain::Geoid::default_grid());
+    if (!geoid) fail(geoid.error());
+    ig::EyepointReading reading;
+    reading.view.vertical_fov_deg = request.vertical_fov_deg;
+    reading.altitude_datum =
+        request.ellipsoid ? config::VerticalDatum::Ellipsoid : config::VerticalDatum::Msl;
+    reading.geoid = &*geoid;
+    auto eyes = ig::fly(*recording, *port, reading, request.drawing.size, request.rate_hz);
+    if (!eyes) fail(request.flight.string() + ": " + eyes.error());
+    std::erase_if(*eyes, [&](const ig::FlightEye& eye) {
+        return eye.time_s < request.from_s || eye.time_s > request.until_s;
+    });
+    if (eyes->empty()) fail("nothing is flown between --from and --until");
+    BenchOptions options = request.drawing;
+    options.complete = !request.streaming;
+    const auto result = run_bench(options, *eyes);
+    if (!result) fail(result.error());
+    fmt::print("{}", describe(*result));
+}
+
+}  // namespace
+
+void add_flight_command(CLI::App& program) {
+    auto request = std::make_shared<FlightRequest>();
+    auto* command =
+        program.add_subcommand("flight", "Draws a recorded flight in virtual time and prints what it took.");
+    command->add_option("flight", request->flight, "recorded flight (pcap)")
+        ->required()
+        ->check(CLI::ExistingFile);
+    add_drawing_options(*command, request->drawing, true);
+    command->add_option("--rate", request->rate_hz, "frames a second of flight")
+        ->check(CLI::Range(0.01, 1000.0))
+        ->capture_default_str();
+    command->add_option("--fov", request->vertical_fov_deg, "vertical field of view, degrees")
+        ->check(CLI::Range(1.0, 170.0))
+        ->capture_default_str();
+    command->add_option("--from", request->from_s, "start of the part to fly, seconds");
+    command->add_option("--until", request->until_s, "end of the part to fly, seconds");
+    command->add_flag("--ellipsoid", request->ellipsoid,
+                      "the flight's altitudes are above the ellipsoid, not the sea");
+    command->add_flag("--streaming", request->streaming, "do not wait for loads: draw what there is");
+    command->callback([request] { run(*request); });
+    command->footer(
+        "Example: eyepoint-bench flight tools/flights/goms-c172-60s-30hz.pcap --terrain out/demo/terrain");
+}
+
+}  // namespace eyepoint::tools

@@ -1,0 +1,56 @@
+/// eyepoint-bench: what drawing costs, in numbers that can be compared.
+#include <cstdlib>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "tools/bench/command_options.hpp"
+
+namespace eyepoint::tools {
+
+void fail(const std::string& sentence) {
+    fmt::print(stderr, "eyepoint-bench: {}\n", sentence);
+    std::exit(EXIT_FAILURE);
+}
+
+void add_drawing_options(CLI::App& command, BenchOptions& options, bool terrain_required) {
+    auto* terrain = command.add_option("--terrain", options.terrain, "terrain database")->type_name("DB");
+    if (terrain_required) terrain->required();
+    command
+        .add_option_function<std::string>(
+            "--size",
+            [&options](const std::string& text) {
+                int width = 0, height = 0;
+                char rest = 0;
+                if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 16 ||
+                    height < 16) {
+                    throw CLI::ValidationError("--size", "'" + text + "' is no size; write it as 1280x720");
+                }
+                options.size = {width, height};
+            },
+            "picture, WIDTHxHEIGHT pixels")
+        ->default_str(fmt::format("{}x{}", options.size.width_px, options.size.height_px));
+    command.add_option("--tau", options.scene.tau_px, "tolerance, pixels")
+        ->check(CLI::Range(0.05, 100.0))
+        ->capture_default_str();
+    command.add_option("--lod", options.scene.lod_method, "level-of-detail method")->capture_default_str();
+    command.add_option("--visibility", options.scene.visibility_m, "metres")->capture_default_str();
+    command.add_option("--pictures", options.pictures, "folder for pictures")->type_name("DIR");
+    command.add_option("--every", options.picture_every, "a picture every so many frames")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    command.add_option("--record", options.record, "frame record to write (JSON lines)")->type_name("FILE");
+    command.add_flag("--sentinel", options.scene.sentinel, "no sky: magenta where no terrain is drawn");
+}
+
+}  // namespace eyepoint::tools
+
+int main(int argc, char** argv) {
+    CLI::App program{"Measures Eyepoint: frames, selection, triangles, memory; in virtual time, off screen."};
+    program.set_version_flag("--version", EYEPOINT_VERSION);
+    program.require_subcommand(1);
+    eyepoint::tools::add_flight_command(program);
+    eyepoint::tools::add_field_command(program);
+    CLI11_PARSE(program, argc, argv);
+    return EXIT_SUCCESS;
+}
