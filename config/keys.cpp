@@ -143,7 +143,9 @@ constexpr std::array kKeys = {
 
     text(row<kHost, &HostSettings::address>("host", "address", "Local address to listen on"), "an address",
          not_empty),
-    whole(1, 65535, row<kHost, &HostSettings::port>("host", "port", "UDP port to listen on")),
+    whole(0, 65535,
+          row<kHost, &HostSettings::port>("host", "port",
+                                          "UDP port to listen on; 0: a free one, named in the ready line")),
     text(row<kHost, &HostSettings::answer_to>(
              "host", "answer_to", "\"HOST:PORT\" that CIGI answers go to; empty: whoever sent last"),
          "\"HOST:PORT\" or nothing", empty_or_host_and_port),

@@ -52,7 +52,7 @@ const FileFault kFaults[] = {
     {"TooLarge", "[terrain]\ntau_px = 500\n", 2, "terrain.tau_px is 500; expected a number from 0.1 to 100"},
     {"TooSmall", "[view]\nwidth_px = 15\n", 2,
      "view.width_px is 15; expected a whole number from 16 to 16384"},
-    {"PastTheFieldsType", "[host]\nport = 65536\n", 2, "expected a whole number from 1 to 65535"},
+    {"PastTheFieldsType", "[host]\nport = 65536\n", 2, "expected a whole number from 0 to 65535"},
     {"Negative", "[frame]\nframes = -1\n", 2, "frame.frames is -1"},
     {"FractionForAWholeNumber", "[view]\nwidth_px = 1280.5\n", 2,
      "view.width_px is 1280.5; expected a whole number"},
@@ -78,7 +78,7 @@ const FileFault kFaults[] = {
 };
 
 INSTANTIATE_TEST_SUITE_P(Settings, FaultInFile, testing::ValuesIn(kFaults),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& fault) { return std::string(fault.param.name); });
 
 TEST(LoadFaults, AMissingFileIsNamed) {
     const auto loaded = load({.file = "/nowhere/eyepoint.toml"});
