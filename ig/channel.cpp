@@ -135,8 +135,6 @@ Expected<std::string> run_channel(const config::Settings& settings, const Channe
             std::string("no terrain database is given; use --terrain FOLDER, and make one with "
                         "'eyepoint-terrain synth -o FOLDER' if there is none"));
     }
-    auto geoid = load_geoid(settings);
-    if (!geoid) return tl::unexpected(geoid.error());
     auto output = prepare_output(settings);
     if (!output) return tl::unexpected(output.error());
     auto record = prepare_record(settings.output);
@@ -145,6 +143,8 @@ Expected<std::string> run_channel(const config::Settings& settings, const Channe
     if (!host) return tl::unexpected(host.error());
     auto database = open_database(settings.terrain);
     if (!database) return tl::unexpected(database.error());
+    auto geoid = load_geoid(settings);
+    if (!geoid) return tl::unexpected(geoid.error());
     auto graphics = open_graphics(settings, surroundings);
     if (!graphics) return tl::unexpected(graphics.error());
     if (graphics->window) *output = std::make_unique<WindowOutput>(*graphics->window);

@@ -51,16 +51,19 @@ struct Typed {
 };
 
 void add_outputs(CLI::App& app, Typed& typed, CommandLine& line) {
-    auto* headless = app.add_flag("--headless", line.headless, "Open no window");
-    auto* window = app.add_flag("-w,--window", typed.window, "Show frames in a window (the default)");
-    auto* pictures =
-        app.add_option("-o,--output", typed.pictures, "Write numbered pictures")->type_name("FOLDER");
-    auto* video =
-        app.add_option("-v,--video", typed.video, "Write a video (needs ffmpeg)")->type_name("FILE");
-    auto* none = app.add_flag("--none", typed.none, "Write and show nothing");
-    window->excludes(headless, pictures, video, none);
-    pictures->excludes(video, none);
-    video->excludes(none);
+    app.add_flag("--headless", line.headless, "Open no window");
+    app.add_flag("-w,--window", typed.window, "Show frames in a window (the default)");
+    app.add_option("-o,--output", typed.pictures, "Write numbered pictures")->type_name("FOLDER");
+    app.add_option("-v,--video", typed.video, "Write a video (needs ffmpeg)")->type_name("FILE");
+    app.add_flag("--none", typed.none, "Write and show nothing");
+}
+
+tl::expected<void, std::string> check_outputs(const Typed& typed, bool headless) {
+    const int places = (typed.window ? 1 : 0) + (typed.none ? 1 : 0) + (typed.pictures.empty() ? 0 : 1) +
+                       (typed.video.empty() ? 0 : 1);
+    if (places > 1) return tl::unexpected(std::string("give one of --window, --output, --video and --none"));
+    if (headless && typed.window) return tl::unexpected(std::string("give one of --headless and --window"));
+    return {};
 }
 
 void add_options(CLI::App& app, Typed& typed, CommandLine& line) {
@@ -152,6 +155,7 @@ tl::expected<CommandLine, std::string> parse_command_line(int argc, const char* 
     } catch (const CLI::ParseError& fault) {
         return tl::unexpected(fmt::format("{}; see eyepoint --help", fault.what()));
     }
+    if (auto checked = check_outputs(typed, line.headless); !checked) return tl::unexpected(checked.error());
     auto overrides = overrides_of(typed);
     if (!overrides) return tl::unexpected(overrides.error());
     line.overrides = *std::move(overrides);
