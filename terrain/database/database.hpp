@@ -20,7 +20,8 @@ namespace eyepoint::terrain {
 inline constexpr int kBlockLevels = 6;
 /// Heights are stored with one further ring of posts around the block, so that normals agree on shared edges.
 inline constexpr int kApronPosts = kBlockPosts + 2;
-/// Texels a side of a tile's picture; the outer texels' centres lie on the tile's edges, so neighbours share them.
+/// Texels a side of a tile's picture; the outer texels' centres lie on the tile's edges, so neighbours share
+/// them.
 inline constexpr int kImageTexels = 128;
 
 /// What is known of every tile of the database without reading its block.
@@ -28,9 +29,9 @@ struct NodeInfo {
     /// Range of ellipsoidal heights, metres, over all full-resolution posts below the tile.
     float height_min_m = 0.0F;
     float height_max_m = 0.0F;
-    /// delta_m[l]: an upper bound, metres, on the distance in space between any point of the full-resolution surface
-    /// below the tile (heights linear between posts, on the curved ellipsoid) and the mesh of its level l (flat
-    /// triangles). Grows with l.
+    /// delta_m[l]: an upper bound, metres, on the distance in space between any point of the full-resolution
+    /// surface below the tile (heights linear between posts, on the curved ellipsoid) and the mesh of its
+    /// level l (flat triangles). Grows with l.
     std::array<float, kBlockLevels> delta_m{};
     bool has_children = false;  ///< all four or none
     bool has_image = false;
@@ -39,8 +40,8 @@ struct NodeInfo {
 /// A tile's stored content.
 struct BlockData {
     TileId tile;
-    /// Ellipsoidal heights, metres: rows from south, posts from west; index (row + 1) * kApronPosts + column + 1
-    /// for row and column in -1..33.
+    /// Ellipsoidal heights, metres: rows from south, posts from west; index (row + 1) * kApronPosts + column
+    /// + 1 for row and column in -1..33.
     std::array<float, kApronPosts * kApronPosts> heights_m{};
     /// 1 where a post is on the surface of a sea or lake; index row * kBlockPosts + column.
     std::array<std::uint8_t, kBlockPosts * kBlockPosts> water{};
@@ -77,7 +78,8 @@ struct Manifest {
     std::uint64_t tiles = 0;
     std::uint64_t image_tiles = 0;
     std::uint64_t voids_filled = 0;
-    GeographicExtent detail_extent;  ///< bounds of the tiles of the deepest sources; the planet is always whole
+    GeographicExtent
+        detail_extent;  ///< bounds of the tiles of the deepest sources; the planet is always whole
     std::vector<SourceRecord> sources;
 };
 
@@ -85,8 +87,8 @@ struct Manifest {
 /// Thread use: const use is safe from any thread (reads are pread).
 class Database {
   public:
-    /// Opens a database folder and reads its manifest and the index of every shard; verifies format version, index
-    /// checksums and file sizes, not the blocks. On failure: one sentence with file, fault and remedy.
+    /// Opens a database folder and reads its manifest and the index of every shard; verifies format version,
+    /// index checksums and file sizes, not the blocks. On failure: one sentence with file, fault and remedy.
     [[nodiscard]] static tl::expected<Database, std::string> open(const std::filesystem::path& folder);
 
     ~Database();

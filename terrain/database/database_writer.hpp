@@ -15,9 +15,9 @@
 
 namespace eyepoint::terrain {
 
-/// Writes shards beside the final place (FOLDER.partial-PID) and renames the folder when everything is on disk
-/// (fsync of files and folders first). If the writer is destroyed before commit(), nothing is left. A database
-/// already at the final place is replaced only by commit(), and only if it is a terrain database.
+/// Writes shards beside the final place (FOLDER.partial-PID) and renames the folder when everything is on
+/// disk (fsync of files and folders first). If the writer is destroyed before commit(), nothing is left. A
+/// database already at the final place is replaced only by commit(), and only if it is a terrain database.
 /// Thread use: put() may be called from several threads; the rest from one.
 class DatabaseWriter {
   public:
@@ -27,8 +27,8 @@ class DatabaseWriter {
         std::optional<std::span<const std::uint8_t>> image_rgb;  ///< kImageTexels^2 * 3 bytes
     };
 
-    /// height_step_m: the quantum heights are stored in. On failure: one sentence (unwritable, exists and is no
-    /// database, another writer at work).
+    /// height_step_m: the quantum heights are stored in. On failure: one sentence (unwritable, exists and is
+    /// no database, another writer at work).
     [[nodiscard]] static tl::expected<DatabaseWriter, std::string> create(const std::filesystem::path& folder,
                                                                           double height_step_m);
     ~DatabaseWriter();

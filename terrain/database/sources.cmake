@@ -1,2 +1,10 @@
 target_sources(eyepoint_terrain PRIVATE
+    database/block_codec.cpp
+    database/database.cpp
+    database/database_writer.cpp
+    database/durable_file.cpp
+    database/image_codec.cpp
+    database/manifest_json.cpp
+    database/shard.cpp
+    database/virtual_tile.cpp
 )
