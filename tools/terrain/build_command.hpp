@@ -5,8 +5,8 @@
 
 namespace eyepoint::tools {
 
-/// Adds the subcommand `build` and its options. When chosen it runs while the application parses; a failed build
-/// ends as CLI::RuntimeError(1) after one line on stderr, with nothing written.
+/// Adds the subcommand `build` and its options. When chosen it runs while the application parses; a failed
+/// build ends as CLI::RuntimeError(1) after one line on stderr, with nothing written.
 void add_build_command(CLI::App& application);
 
 }  // namespace eyepoint::tools

@@ -52,6 +52,11 @@ terrain::GeographicExtent bounds_of_places(std::span<const LatLon> places) {
     return bounds;
 }
 
+terrain::GeographicExtent grown(const terrain::GeographicExtent& extent, double degrees) {
+    return {extent.west_deg - degrees, extent.south_deg - degrees, extent.east_deg + degrees,
+            extent.north_deg + degrees};
+}
+
 std::vector<std::vector<HeightGrid>> in_classes(std::vector<HeightGrid> grids) {
     std::stable_sort(grids.begin(), grids.end(),
                      [](const HeightGrid& a, const HeightGrid& b) { return a.spacing_deg < b.spacing_deg; });
@@ -71,18 +76,6 @@ std::vector<std::vector<HeightGrid>> in_classes(std::vector<HeightGrid> grids) {
 }
 
 }  // namespace
-
-LatLon normalised(double latitude_deg, double longitude_deg) {
-    if (std::abs(latitude_deg) > 90.0) {
-        latitude_deg = std::copysign(180.0, latitude_deg) - latitude_deg;
-        longitude_deg += 180.0;
-    }
-    if (std::abs(latitude_deg) == 90.0) return {latitude_deg, 0.0};
-    if (longitude_deg < -180.0 || longitude_deg >= 180.0) {
-        longitude_deg -= 360.0 * std::floor((longitude_deg + 180.0) / 360.0);
-    }
-    return {latitude_deg, longitude_deg};
-}
 
 Mosaic::Mosaic(std::vector<HeightGrid> grids, const terrain::Geoid& geoid, const MosaicOptions& options,
                const std::function<void(std::size_t, std::size_t)>& progress)
@@ -156,17 +149,22 @@ void Mosaic::fade_edges(std::size_t class_index) {
         const int margin = margin_posts(layer, class_index);
         const HeightGrid& grid = layer.grid();
         const auto by_itself = [&](int column, int row) { return layer.covers(column, row); };
+        std::vector<const MosaicLayer*> others;
+        for (const MosaicLayer& other : layers) {
+            if (&other != &layer &&
+                meet(grown(layer.bounds(), (margin + 2) * grid.spacing_deg), other.bounds())) {
+                others.push_back(&other);
+            }
+        }
         EdgeWeights own{grid.columns, grid.rows, margin, by_itself};
         const auto by_class = [&](int column, int row) {
             if (layer.covers(column, row)) return true;
             const LatLon place =
                 grid.mapping.to_place({static_cast<double>(column), static_cast<double>(row)});
-            return std::any_of(layers.begin(), layers.end(), [&](const MosaicLayer& other) {
-                return &other != &layer && other.touches(place) && other.covers(place);
-            });
+            return std::any_of(others.begin(), others.end(),
+                               [&](const MosaicLayer* other) { return other->covers(place); });
         };
-        EdgeWeights of_class =
-            layers.size() == 1 ? own : EdgeWeights{grid.columns, grid.rows, margin, by_class};
+        EdgeWeights of_class = others.empty() ? own : EdgeWeights{grid.columns, grid.rows, margin, by_class};
         layer.set_edges(std::move(own), std::move(of_class));
     }
 }
@@ -202,7 +200,7 @@ std::vector<Mosaic::MslSample> Mosaic::sample_msl(std::span<const LatLon> places
     for (auto of_class = classes_.rbegin(); of_class != classes_.rend(); ++of_class) {
         std::vector<ClassBlend> blends(places.size());
         for (const MosaicLayer& layer : *of_class) {
-            if (!layer.touches(extent)) continue;
+            if (!meet(layer.bounds(), extent)) continue;
             layer.sample(places, samples);
             for (std::size_t i = 0; i < places.size(); ++i) blends[i].add(samples[i]);
         }

@@ -73,8 +73,4 @@ class Mosaic final : public ElevationSource {
     std::vector<LayerFacts> facts_;
 };
 
-/// The place that a latitude past a pole and a longitude of any turn mean. At a pole the longitude is 0, so
-/// that a pole is one place.
-[[nodiscard]] LatLon normalised(double latitude_deg, double longitude_deg);
-
 }  // namespace eyepoint::tools

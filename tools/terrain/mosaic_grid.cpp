@@ -129,6 +129,25 @@ terrain::GeographicExtent bounds_of(const GridMapping& mapping, int columns, int
     return bounds;
 }
 
+bool meet(const terrain::GeographicExtent& a, const terrain::GeographicExtent& b) {
+    if (a.north_deg < b.south_deg || a.south_deg > b.north_deg) return false;
+    // The least whole turn that brings a's east end to b's west end or past it.
+    const double turn = std::ceil((b.west_deg - a.east_deg) / 360.0) * 360.0;
+    return a.west_deg + turn <= b.east_deg;
+}
+
+LatLon normalised(double latitude_deg, double longitude_deg) {
+    if (std::abs(latitude_deg) > 90.0) {
+        latitude_deg = std::copysign(180.0, latitude_deg) - latitude_deg;
+        longitude_deg += 180.0;
+    }
+    if (std::abs(latitude_deg) == 90.0) return {latitude_deg, 0.0};
+    if (longitude_deg < -180.0 || longitude_deg >= 180.0) {
+        longitude_deg -= 360.0 * std::floor((longitude_deg + 180.0) / 360.0);
+    }
+    return {latitude_deg, longitude_deg};
+}
+
 std::vector<HeightGrid> join_neighbours(std::vector<HeightGrid> grids) {
     while (join_one_pair(grids)) {
     }

@@ -60,6 +60,13 @@ struct HeightGrid {
 /// west.
 [[nodiscard]] terrain::GeographicExtent bounds_of(const GridMapping& mapping, int columns, int rows);
 
+/// Whether two extents meet, touching edges included, in some turn of longitude.
+[[nodiscard]] bool meet(const terrain::GeographicExtent& a, const terrain::GeographicExtent& b);
+
+/// The place that a latitude past a pole and a longitude of any turn mean; longitude in -180..180, 180
+/// excluded. At a pole the longitude is 0, so that a pole is one place.
+[[nodiscard]] LatLon normalised(double latitude_deg, double longitude_deg);
+
 /// Joins grids that lie on one lattice and touch or overlap into one grid each, so that no seam is left
 /// between them: where they overlap, the first in order that has a height gives it. Grids that stand alone
 /// come through unchanged. A pair is left apart where joining would leave a grid more than half empty.

@@ -67,17 +67,6 @@ void MosaicLayer::summarise() {
     }
 }
 
-bool MosaicLayer::touches(const terrain::GeographicExtent& extent) const {
-    if (extent.north_deg < bounds_.south_deg || extent.south_deg > bounds_.north_deg) return false;
-    // Some whole turn must bring the two intervals of longitude together.
-    const double turn = std::ceil((bounds_.west_deg - extent.east_deg) / 360.0) * 360.0;
-    return extent.west_deg + turn <= bounds_.east_deg;
-}
-
-bool MosaicLayer::touches(LatLon place) const {
-    return touches({place.longitude_deg, place.latitude_deg, place.longitude_deg, place.latitude_deg});
-}
-
 std::ptrdiff_t MosaicLayer::post(int column, int row) const {
     if (folds_ && (row < 0 || row >= grid_.rows)) {
         row = row < 0 ? north_fold_ - row : south_fold_ - row;
@@ -162,7 +151,7 @@ void MosaicLayer::sample(std::span<const LatLon> places, std::span<LayerSample> 
 }
 
 MosaicLayer::Content MosaicLayer::content(const terrain::GeographicExtent& extent) const {
-    if (!touches(extent)) return Content::None;
+    if (!meet(bounds_, extent)) return Content::None;
     constexpr int kProbes = 5;
     std::array<LatLon, kProbes * kProbes> places;
     for (int i = 0; i < kProbes * kProbes; ++i) {

@@ -35,9 +35,6 @@ class MosaicLayer {
     [[nodiscard]] const terrain::GeographicExtent& bounds() const { return bounds_; }
     /// Whether it fades out anywhere.
     [[nodiscard]] bool has_edge() const { return !of_class_.is_one(); }
-    /// Whether an extent touches the layer's bounds, in any turn of longitude.
-    [[nodiscard]] bool touches(const terrain::GeographicExtent& extent) const;
-    [[nodiscard]] bool touches(LatLon place) const;
     /// Whether a whole post position holds a height; columns wrap and rows fold over the poles on a global
     /// grid.
     [[nodiscard]] bool covers(int column, int row) const;

@@ -188,6 +188,13 @@ class Patch {
 
 }  // namespace
 
+float deepest_void_posts(double spacing_deg) {
+    constexpr double kMostPosts = 64.0;
+    constexpr double kMostDeg = 0.1;
+    constexpr double kLeastPosts = 3.0;
+    return static_cast<float>(std::max(kLeastPosts, std::min(kMostPosts, kMostDeg / spacing_deg)));
+}
+
 VoidFill fill_voids(HeightGrid& grid, const CoarserSurface& coarser) {
     std::vector<std::uint8_t> known(grid.heights_m.size());
     std::transform(grid.heights_m.begin(), grid.heights_m.end(), known.begin(),
@@ -195,7 +202,7 @@ VoidFill fill_voids(HeightGrid& grid, const CoarserSurface& coarser) {
     if (std::find(known.begin(), known.end(), std::uint8_t{0}) == known.end()) return {};
     VoidFill result;
     for (const Void& area : find_voids(grid, distance_to_sites(known, grid.columns, grid.rows))) {
-        if (area.deepest > kDeepestVoidPosts) {
+        if (area.deepest > deepest_void_posts(grid.spacing_deg)) {
             result.outside += area.posts.size();
             continue;
         }

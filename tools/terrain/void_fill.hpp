@@ -9,15 +9,16 @@
 
 namespace eyepoint::tools {
 
-/// A void that reaches further than this from its rim is no void but an area outside of what the file covers.
-inline constexpr float kDeepestVoidPosts = 64.0F;
+/// A void that reaches further than this from its rim is no void but an area outside of what the file covers:
+/// 64 posts (6 km in SRTM) or a tenth of a degree, whichever is less, but at least 3 posts.
+[[nodiscard]] float deepest_void_posts(double spacing_deg);
 
 /// Heights of a coarser surface, MSL metres, at posts of a grid.
 using CoarserSurface = std::function<std::vector<float>(std::span<const GridPosition>)>;
 
 struct VoidFill {
     std::uint64_t filled = 0;
-    std::uint64_t outside = 0;  ///< left void: further than kDeepestVoidPosts from any height
+    std::uint64_t outside = 0;  ///< left void: further from any height than deepest_void_posts()
 };
 
 /// Fills voids in place of kVoid, by delta surface fill: the difference between the grid and a reference
