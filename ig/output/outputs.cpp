@@ -10,12 +10,8 @@ tl::expected<void, std::string> PictureOutput::show(const FrameBuffer& frame, co
 }
 
 tl::expected<void, std::string> VideoOutput::show(const FrameBuffer& frame, const FrameMoment& moment) {
-    for (; next_slot_ && *next_slot_ < moment.slot; ++*next_slot_) {
-        if (auto repeated = pipe_.write(picture_); !repeated) return repeated;
-    }
-    next_slot_ = moment.slot + 1;
     frame.read(picture_);
-    return pipe_.write(picture_);
+    return pipe_.write(picture_, moment.slot);
 }
 
 tl::expected<void, std::string> WindowOutput::show(const FrameBuffer& frame, const FrameMoment&) {

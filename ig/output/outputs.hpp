@@ -38,7 +38,6 @@ class VideoOutput final : public Output {
 
   private:
     VideoPipe pipe_;
-    std::optional<std::uint64_t> next_slot_;
     Picture picture_;
 };
 

@@ -2,7 +2,11 @@
 
 #include <array>
 #include <cerrno>
+#include <cmath>
+#include <concepts>
 #include <cstring>
+#include <initializer_list>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -55,18 +59,65 @@ class SpawnPlan {
     posix_spawnattr_t attributes_{};
 };
 
+/// Frame slots a second as a fraction that holds three decimals, so 29.97 and 59.94 are what they say.
+constexpr std::uint32_t kRateDenominator = 1000;
+std::uint32_t rate_numerator(double rate_hz) {
+    return static_cast<std::uint32_t>(std::lround(rate_hz * kRateDenominator));
+}
+
 std::vector<std::string> ffmpeg_arguments(const VideoPipe::Options& options,
                                           const std::filesystem::path& to) {
-    return {options.program, "-nostdin", "-hide_banner", "-loglevel", "error", "-y",
-            // what comes through the pipe
-            "-f", "rawvideo", "-pixel_format", "rgb0", "-video_size",
-            fmt::format("{}x{}", options.size.width_px, options.size.height_px), "-framerate",
-            fmt::format("{:.9g}", options.rate_hz), "-i", "pipe:0",
-            // even sides, and colours as a television reads them
-            "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv,format=yuv420p",
-            "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709", "-color_range", "tv",
-            "-c:v", "libx264", "-preset", "veryfast", "-crf", "20", "-movflags", "+faststart", "-f", "mp4",
-            to.string()};
+    // Even sides, colours as a television reads them, and every slot of the frame clock filled: by the frame
+    // before, where one was late.
+    const std::string filters = fmt::format(
+        "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv,format=yuv420p,"
+        "fps={}/{}:start_time=0:eof_action=pass",
+        rate_numerator(options.rate_hz), kRateDenominator);
+    std::vector<std::string> arguments{options.program, "-nostdin", "-hide_banner",
+                                       "-loglevel",     "error",    "-y"};
+    const auto add = [&](std::initializer_list<std::string> more) {
+        arguments.insert(arguments.end(), more);
+    };
+    add({"-f", "ivf", "-i", "pipe:0"});
+    add({"-vf", filters, "-fps_mode", "passthrough"});
+    add({"-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709", "-color_range", "tv"});
+    add({"-c:v", "libx264", "-preset", "veryfast", "-crf", "20", "-movflags", "+faststart"});
+    add({"-f", "mp4", to.string()});
+    return arguments;
+}
+
+/// Bytes of a little-endian format.
+class LittleEndian {
+  public:
+    template <std::unsigned_integral Integer>
+    LittleEndian& put(Integer value) {
+        for (std::size_t byte = 0; byte < sizeof(Integer); ++byte) {
+            bytes_.push_back(static_cast<std::uint8_t>(value >> (8 * byte)));
+        }
+        return *this;
+    }
+    LittleEndian& put(std::string_view text) {
+        bytes_.insert(bytes_.end(), text.begin(), text.end());
+        return *this;
+    }
+    [[nodiscard]] const std::vector<std::uint8_t>& bytes() const { return bytes_; }
+
+  private:
+    std::vector<std::uint8_t> bytes_;
+};
+
+// IVF (wiki.multimedia.cx/index.php/Duck_IVF): the simplest container that gives each raw frame its time.
+std::vector<std::uint8_t> ivf_file_header(PictureSize size, double rate_hz) {
+    LittleEndian header;
+    header.put("DKIF").put(std::uint16_t{0}).put(std::uint16_t{32}).put("RGBA");
+    header.put(static_cast<std::uint16_t>(size.width_px)).put(static_cast<std::uint16_t>(size.height_px));
+    header.put(rate_numerator(rate_hz)).put(kRateDenominator);
+    header.put(std::uint32_t{0}).put(std::uint32_t{0});  // frame count unknown; unused
+    return header.bytes();
+}
+
+std::vector<std::uint8_t> ivf_frame_header(std::size_t bytes, std::uint64_t slot) {
+    return LittleEndian{}.put(static_cast<std::uint32_t>(bytes)).put(slot).bytes();
 }
 
 tl::expected<void, std::string> check_writable(const std::filesystem::path& file,
@@ -95,7 +146,7 @@ tl::expected<VideoPipe, std::string> VideoPipe::start(const Options& options) {
     partial += fmt::format(".partial-{}.mp4", getpid());
     if (auto writable = check_writable(options.file, partial); !writable)
         return tl::unexpected(writable.error());
-    VideoPipe pipe{options.file, partial, options.size};
+    VideoPipe pipe{options, partial};
     if (auto spawned = pipe.spawn(options); !spawned) return tl::unexpected(spawned.error());
     return pipe;
 }
@@ -119,16 +170,17 @@ tl::expected<void, std::string> VideoPipe::spawn(const Options& options) {
                     options.program, std::strerror(fault)));
 }
 
-VideoPipe::VideoPipe(std::filesystem::path file, std::filesystem::path partial, PictureSize size)
-    : file_(std::move(file)), partial_(std::move(partial)), size_(size) {}
+VideoPipe::VideoPipe(const Options& options, std::filesystem::path partial)
+    : file_(options.file), partial_(std::move(partial)), size_(options.size), rate_hz_(options.rate_hz) {}
 
 VideoPipe::VideoPipe(VideoPipe&& other) noexcept
     : file_(std::move(other.file_)),
       partial_(std::exchange(other.partial_, {})),
       size_(other.size_),
+      rate_hz_(other.rate_hz_),
       pipe_(std::exchange(other.pipe_, -1)),
       child_(std::exchange(other.child_, -1)),
-      any_frame_(other.any_frame_) {}
+      first_slot_(other.first_slot_) {}
 
 VideoPipe::~VideoPipe() {
     if (child_ > 0) kill(child_, SIGKILL);
@@ -141,27 +193,33 @@ void VideoPipe::close_pipe() {
     if (pipe_ >= 0) close(std::exchange(pipe_, -1));
 }
 
-tl::expected<void, std::string> VideoPipe::write(const Picture& picture) {
+tl::expected<void, std::string> VideoPipe::write(const Picture& picture, std::uint64_t slot) {
     if (picture.size != size_) {
         return tl::unexpected(fmt::format("{}: a frame of {}x{} does not fit a video of {}x{}",
                                           file_.string(), picture.size.width_px, picture.size.height_px,
                                           size_.width_px, size_.height_px));
     }
-    any_frame_ = true;
-    const std::uint8_t* next = picture.rgba.data();
-    std::size_t left = picture.rgba.size();
-    while (left > 0) {
-        const ssize_t written = ::write(pipe_, next, left);
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0) {
-            const int fault = errno;
-            const auto ended = wait_for_child();
-            return tl::unexpected(ended ? fmt::format("{}: the video cannot be written on ({})",
-                                                      file_.string(), std::strerror(fault))
-                                        : ended.error());
+    const bool is_first = !first_slot_;
+    if (is_first) first_slot_ = slot;
+    std::vector<std::uint8_t> header =
+        is_first ? ivf_file_header(size_, rate_hz_) : std::vector<std::uint8_t>{};
+    const auto frame_header = ivf_frame_header(picture.rgba.size(), slot - *first_slot_);
+    header.insert(header.end(), frame_header.begin(), frame_header.end());
+    if (auto sent = send(header); !sent) return sent;
+    return send(picture.rgba);
+}
+
+tl::expected<void, std::string> VideoPipe::send(std::span<const std::uint8_t> bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(pipe_, bytes.data(), bytes.size());
+        if (written >= 0) {
+            bytes = bytes.subspan(static_cast<std::size_t>(written));
+        } else if (errno != EINTR) {
+            const std::string fault = std::strerror(errno);
+            if (auto ended = wait_for_child(); !ended) return ended;
+            return tl::unexpected(
+                fmt::format("{}: the video cannot be written on ({})", file_.string(), fault));
         }
-        next += written;
-        left -= static_cast<std::size_t>(written);
     }
     return {};
 }
@@ -184,8 +242,7 @@ std::string VideoPipe::describe_end(int status) const {
 }
 
 tl::expected<void, std::string> VideoPipe::finish() {
-    if (child_ < 0) return {};
-    if (!any_frame_) return {};
+    if (child_ < 0 || !first_slot_) return {};
     if (auto ended = wait_for_child(); !ended) return ended;
     std::error_code fault;
     std::filesystem::rename(partial_, file_, fault);

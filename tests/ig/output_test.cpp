@@ -108,7 +108,8 @@ TEST(VideoPipe, MakesAnH264FileOfTheFramesWritten) {
     const fs::path folder = fresh_folder();
     auto video = VideoPipe::start({.file = folder / "flight.mp4", .size = {32, 18}, .rate_hz = 25.0});
     ASSERT_TRUE(video.has_value()) << video.error();
-    for (int frame = 0; frame < 50; ++frame) ASSERT_TRUE(video->write(gradient({32, 18})).has_value());
+    for (std::uint64_t slot = 7; slot < 57; ++slot)
+        ASSERT_TRUE(video->write(gradient({32, 18}), slot).has_value());
     const auto finished = video->finish();
     ASSERT_TRUE(finished.has_value()) << finished.error();
     EXPECT_EQ(files_in(folder), 1U);
@@ -117,13 +118,27 @@ TEST(VideoPipe, MakesAnH264FileOfTheFramesWritten) {
     EXPECT_EQ(probe(folder / "flight.mp4", "r_frame_rate"), "25/1");
 }
 
+TEST(VideoPipe, TheSlotsThatALateFrameMissedShowTheOneBeforeIt) {
+    if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
+    const StopSignals signals;
+    const fs::path file = fresh_folder() / "late.mp4";
+    auto video = VideoPipe::start({.file = file, .size = {32, 18}, .rate_hz = 59.94});
+    ASSERT_TRUE(video.has_value()) << video.error();
+    for (const std::uint64_t slot : {100U, 101U, 130U, 159U}) {
+        ASSERT_TRUE(video->write(gradient({32, 18}), slot).has_value());
+    }
+    ASSERT_TRUE(video->finish().has_value());
+    EXPECT_EQ(probe(file, "nb_read_frames"), "60");
+    EXPECT_EQ(probe(file, "r_frame_rate"), "2997/50");
+}
+
 TEST(VideoPipe, OddSidesArePaddedToEvenOnes) {
     if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
     const StopSignals signals;
     const fs::path file = fresh_folder() / "odd.mp4";
     auto video = VideoPipe::start({.file = file, .size = {33, 19}, .rate_hz = 30.0});
     ASSERT_TRUE(video.has_value()) << video.error();
-    ASSERT_TRUE(video->write(gradient({33, 19})).has_value());
+    ASSERT_TRUE(video->write(gradient({33, 19}), 0).has_value());
     ASSERT_TRUE(video->finish().has_value());
     EXPECT_EQ(probe(file, "width,height"), "34,20");
 }
@@ -135,7 +150,7 @@ TEST(VideoPipe, WithoutFinishNothingIsLeft) {
     {
         auto video = VideoPipe::start({.file = folder / "cut.mp4", .size = {32, 18}});
         ASSERT_TRUE(video.has_value()) << video.error();
-        ASSERT_TRUE(video->write(gradient({32, 18})).has_value());
+        ASSERT_TRUE(video->write(gradient({32, 18}), 0).has_value());
     }
     EXPECT_EQ(files_in(folder), 0U);
 }
@@ -162,7 +177,8 @@ TEST(VideoPipe, AChildThatDiesIsAnErrorAndNotASignal) {
         {.file = fresh_folder() / "a.mp4", .size = {640, 480}, .rate_hz = 30.0, .program = "false"});
     ASSERT_TRUE(video.has_value()) << video.error();
     tl::expected<void, std::string> written;
-    for (int frame = 0; frame < 100 && written; ++frame) written = video->write(gradient({640, 480}));
+    for (std::uint64_t slot = 0; slot < 100 && written; ++slot)
+        written = video->write(gradient({640, 480}), slot);
     ASSERT_FALSE(written.has_value());
     EXPECT_NE(written.error().find("status 1"), std::string::npos) << written.error();
 }
@@ -172,7 +188,7 @@ TEST(VideoPipe, AFrameOfAnotherSizeIsRefused) {
     auto video = VideoPipe::start(
         {.file = fresh_folder() / "a.mp4", .size = {32, 18}, .rate_hz = 30.0, .program = "cat"});
     ASSERT_TRUE(video.has_value()) << video.error();
-    EXPECT_FALSE(video->write(gradient({16, 18})).has_value());
+    EXPECT_FALSE(video->write(gradient({16, 18}), 0).has_value());
 }
 
 }  // namespace
