@@ -72,7 +72,8 @@ void add_options(CLI::App& app, Typed& typed, CommandLine& line) {
                flag.names,
                [&typed, &flag](const std::string& value) { typed.key_flags.emplace_back(&flag, value); },
                flag.description)
-            ->type_name(flag.value_name);
+            ->type_name(flag.value_name)
+            ->take_last();
     }
     app.add_option("-c,--config", line.config_file, "Settings file (TOML)")->type_name("FILE");
     app.add_option("-s,--size", typed.size, "Size of the picture, pixels")->type_name("WIDTHxHEIGHT");
