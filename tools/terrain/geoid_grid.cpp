@@ -44,7 +44,7 @@ std::string to_pgm(const std::vector<char>& gtx) {
         for (std::size_t column = 0; column < kColumns; ++column) {
             const std::size_t post = (kRows - 1 - row) * kColumns + (column + kColumns / 2) % kColumns;
             const auto height_m = std::bit_cast<float>(big_endian(gtx, kHeaderBytes + 4 * post));
-            const auto sample = static_cast<std::uint16_t>(std::lround((height_m - kOffsetM) / kScaleM));
+            const auto sample = static_cast<std::uint16_t>(std::lrint((height_m - kOffsetM) / kScaleM));
             pgm.push_back(static_cast<char>(sample >> 8));
             pgm.push_back(static_cast<char>(sample & 0xFF));
         }

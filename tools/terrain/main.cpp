@@ -1,7 +1,10 @@
 /// eyepoint-terrain: makes, describes, checks and pictures terrain databases.
 #include <CLI/CLI.hpp>
 
+#include "tools/terrain/info_command.hpp"
+#include "tools/terrain/preview_command.hpp"
 #include "tools/terrain/synth_command.hpp"
+#include "tools/terrain/verify_command.hpp"
 #ifdef EYEPOINT_HAS_BUILD_COMMAND
 #include "tools/terrain/build_command.hpp"
 #endif
@@ -15,6 +18,9 @@ int main(int argc, char** argv) {
         "Examples:\n  eyepoint-terrain synth -o out/synth\n  eyepoint-terrain info out/synth\n"
         "  eyepoint-terrain preview out/synth -o relief.png");
     eyepoint::tools::add_synth_command(application);
+    eyepoint::tools::add_info_command(application);
+    eyepoint::tools::add_verify_command(application);
+    eyepoint::tools::add_preview_command(application);
 #ifdef EYEPOINT_HAS_BUILD_COMMAND
     eyepoint::tools::add_build_command(application);
 #endif

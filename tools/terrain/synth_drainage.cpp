@@ -12,6 +12,8 @@ namespace eyepoint::tools {
 
 namespace {
 
+constexpr double kAreaExponent = 0.4;
+
 struct Step {
     int row, column;
     double length;
@@ -76,9 +78,16 @@ Flood flood(const HeightGrid& grid, const std::vector<std::uint8_t>& is_base) {
     return result;
 }
 
+/// 0.6..1.4.
+double disturbance(std::uint32_t post, std::uint32_t next, std::uint64_t seed) {
+    std::uint64_t bits = (seed + ((std::uint64_t{post} << 32) | next)) * 0x9e3779b97f4a7c15ULL;
+    bits = (bits ^ (bits >> 29)) * 0xbf58476d1ce4e5b9ULL;
+    return 0.6 + 0.8 * static_cast<double>(bits >> 40) / static_cast<double>(1U << 24);
+}
+
 }  // namespace
 
-Drainage route_water(const HeightGrid& grid, const std::vector<std::uint8_t>& is_base) {
+Drainage route_water(const HeightGrid& grid, const std::vector<std::uint8_t>& is_base, std::uint64_t seed) {
     Flood flooded = flood(grid, is_base);
     Drainage result;
     result.receiver = flooded.from;
@@ -86,7 +95,8 @@ Drainage route_water(const HeightGrid& grid, const std::vector<std::uint8_t>& is
         if (flooded.from[post] == post) continue;
         double steepest = 0.0;
         for_neighbours(post, grid.side, [&](std::uint32_t next, double length) {
-            const double fall = (flooded.level[post] - flooded.level[next]) / length;
+            const double fall =
+                (flooded.level[post] - flooded.level[next]) / length * disturbance(post, next, seed);
             if (fall <= steepest) return;
             steepest = fall;
             result.receiver[post] = next;
@@ -101,9 +111,9 @@ Drainage route_water(const HeightGrid& grid, const std::vector<std::uint8_t>& is
     return result;
 }
 
-HeightGrid erode(const HeightGrid& grid, const std::vector<std::uint8_t>& is_base,
-                 const ErosionRates& rates) {
-    const Drainage water = route_water(grid, is_base);
+HeightGrid erode(const HeightGrid& grid, const std::vector<std::uint8_t>& is_base, const ErosionRates& rates,
+                 std::uint64_t seed) {
+    const Drainage water = route_water(grid, is_base, seed);
     HeightGrid result = grid;
     for (const std::uint32_t post : water.order) {
         const std::uint32_t receiver = water.receiver[post];
@@ -114,7 +124,7 @@ HeightGrid erode(const HeightGrid& grid, const std::vector<std::uint8_t>& is_bas
             post % static_cast<std::uint32_t>(grid.side) == receiver % static_cast<std::uint32_t>(grid.side);
         const double run_m = grid.spacing_m * (straight ? 1.0 : std::numbers::sqrt2);
         const double cut = rates.erodibility_per_year * (*rates.erodibility_factor)[post] * rates.step_years *
-                           std::sqrt(water.area_m2[post]) / run_m;
+                           std::pow(water.area_m2[post], kAreaExponent) / run_m;
         const double raised = grid.heights_m[post] + (*rates.uplift_m_per_year)[post] * rates.step_years;
         const double below = result.heights_m[receiver];
         const double height = (raised + cut * below) / (1.0 + cut);

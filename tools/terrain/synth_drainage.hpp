@@ -1,7 +1,7 @@
 /// Landscape evolution on a grid: uplift against rivers, which is what makes valleys join, ridges branch and
 /// slopes lead down to the sea.
 ///
-/// Rivers cut by the stream power law, dh/dt = U - K sqrt(A) |grad h|, A being the drained area; solved
+/// Rivers cut by the stream power law, dh/dt = U - K A^0.4 |grad h|, A being the drained area; solved
 /// implicitly from the sea upstream (J. Braun & S. Willett, "A very efficient O(n), implicit and parallel
 /// method to solve the stream power equation", Geomorphology 180, 2013). Pits are drained over their lowest
 /// rim by a priority flood (R. Barnes, C. Lehman & D. Mulla, Computers & Geosciences 62, 2014). Slopes
@@ -28,12 +28,15 @@ struct Drainage {
     std::vector<double> area_m2;          ///< drained through the post, its own cell included
 };
 
-/// is_base marks the posts where water leaves (the sea); the grid's border is base too.
-[[nodiscard]] Drainage route_water(const HeightGrid& grid, const std::vector<std::uint8_t>& is_base);
+/// is_base marks the posts where water leaves (the sea); the grid's border is base too. Water goes to the
+/// steepest of eight neighbours, the steepness of each disturbed by chance, from the seed: else valleys would
+/// show the grid.
+[[nodiscard]] Drainage route_water(const HeightGrid& grid, const std::vector<std::uint8_t>& is_base,
+                                   std::uint64_t seed);
 
 struct ErosionRates {
     double step_years = 0.0;
-    double erodibility_per_year = 0.0;  ///< K, with exponent 1/2 of the area: 1/year
+    double erodibility_per_year = 0.0;  ///< K, for areas in square metres
     double steepest_slope = 0.0;        ///< rise over run
     const std::vector<double>* uplift_m_per_year = nullptr;
     const std::vector<double>* erodibility_factor = nullptr;
@@ -41,6 +44,6 @@ struct ErosionRates {
 
 /// One time step. Base posts keep their heights.
 [[nodiscard]] HeightGrid erode(const HeightGrid& grid, const std::vector<std::uint8_t>& is_base,
-                               const ErosionRates& rates);
+                               const ErosionRates& rates, std::uint64_t seed);
 
 }  // namespace eyepoint::tools

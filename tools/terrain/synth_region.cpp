@@ -7,6 +7,7 @@
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
+#include <tbb/parallel_for.h>
 
 #include "terrain/geodesy/earth.hpp"
 #include "tools/terrain/synth_noise.hpp"
@@ -21,25 +22,27 @@ struct Pass {
     int steps;
     double step_years;
 };
-constexpr std::array<Pass, 4> kPasses{{{257, 60, 1e5}, {513, 15, 6e4}, {1025, 8, 3e4}, {1601, 4, 1.5e4}}};
+constexpr std::array<Pass, 4> kPasses{{{161, 140, 2e5}, {321, 20, 1e5}, {641, 14, 6e4}, {1281, 6, 2.5e4}}};
 
 constexpr double kUpliftMPerYear = 1e-3;
-constexpr double kErodibilityPerYear = 2.2e-6;
-constexpr double kSteepestSlope = 1.15;
-constexpr double kHighestMslM = 3950.0;
+constexpr double kErodibilityPerYear = 5.5e-6;
+constexpr double kSteepestSlope = 1.2;
+constexpr double kHighestM = 3'350.0;
+/// Then the whole range, but not the coast, is lifted by this.
+constexpr double kLiftM = 750.0;
 /// A post that drains more than this is a river.
 constexpr double kRiverAreaM2 = 3e6;
 
 /// The main valley's line, in the region's metres east and north of its centre: under the sample flight.
 constexpr glm::dvec2 kValleyPoint{-6'100.0, -3'800.0};
 constexpr double kValleyAzimuthDeg = 61.0;
-constexpr double kValleyHalfWidthM = 2'600.0;
+constexpr double kValleyHalfWidthM = 1'700.0;
 /// The coast lies this far from the centre, towards the south-west.
 constexpr double kCoastM = 58'000.0;
 constexpr double kCoastAzimuthDeg = 230.0;
 /// How far land has sunk at the coast since its valleys were cut: they are arms of the sea, hills are
 /// islands.
-constexpr double kSubsidenceM = 190.0;
+constexpr double kSubsidenceM = 480.0;
 
 glm::dvec2 direction(double azimuth_deg) {
     const double azimuth = azimuth_deg * std::numbers::pi / 180.0;
@@ -53,18 +56,18 @@ class Setting {
 
     /// Metres from the ancient coast, land positive.
     [[nodiscard]] double inland_m(glm::dvec2 at) const {
-        return kCoastM - glm::dot(at, direction(kCoastAzimuthDeg)) + 26'000.0 * noise(at, 42'000.0, 11, 5);
+        return kCoastM - glm::dot(at, direction(kCoastAzimuthDeg)) + 48'000.0 * noise(at, 36'000.0, 11, 5);
     }
 
     [[nodiscard]] double uplift_m_per_year(glm::dvec2 at) const {
-        const double massif = 0.16 + 0.84 * smooth_step(0.0, 52'000.0, inland_m(at));
-        const double blocks = 0.85 + 0.9 * noise(at, 26'000.0, 29, 3);
-        return kUpliftMPerYear * massif * std::clamp(blocks, 0.25, 1.6) * (1.0 - 0.8 * in_valley(at));
+        const double massif = 0.1 + 0.9 * smooth_step(0.0, 55'000.0, inland_m(at));
+        const double blocks = 0.9 + 0.8 * noise(at, 26'000.0, 29, 3);
+        return kUpliftMPerYear * massif * std::clamp(blocks, 0.25, 1.6) * (1.0 - 0.5 * in_valley(at));
     }
 
     /// Rock differs: weak along the main valley's fault, and in bands.
     [[nodiscard]] double erodibility_factor(glm::dvec2 at) const {
-        return std::exp(1.1 * noise(at, 9'000.0, 53, 4)) * (1.0 + 2.0 * in_valley(at));
+        return std::exp(1.1 * noise(at, 9'000.0, 53, 4)) * (1.0 + 0.6 * in_valley(at));
     }
 
     [[nodiscard]] double noise(glm::dvec2 at, double width_m, std::uint64_t salt, int octaves) const {
@@ -124,6 +127,25 @@ std::vector<std::uint8_t> sea_of(const HeightGrid& grid, const Setting& setting)
     return sea;
 }
 
+/// Creep: ground evens out a little, so that slopes are not the straight lines of the grid's eight
+/// directions.
+void smooth(HeightGrid& grid, int times) {
+    const int side = grid.side;
+    for (int pass = 0; pass < times; ++pass) {
+        const std::vector<double> before = grid.heights_m;
+        for (int row = 1; row + 1 < side; ++row) {
+            for (int column = 1; column + 1 < side; ++column) {
+                const auto at = static_cast<std::size_t>(row * side + column);
+                const auto up = static_cast<std::size_t>(side);
+                const double straight = before[at - 1] + before[at + 1] + before[at - up] + before[at + up];
+                const double oblique =
+                    before[at - up - 1] + before[at - up + 1] + before[at + up - 1] + before[at + up + 1];
+                grid.heights_m[at] = 0.5 * before[at] + straight / 12.0 + oblique / 24.0;
+            }
+        }
+    }
+}
+
 HeightGrid evolve(const RegionShape& shape, const Setting& setting) {
     const int first = kPasses.front().side;
     HeightGrid grid{first, 2.0 * shape.half_width_m / (first - 1),
@@ -132,20 +154,19 @@ HeightGrid evolve(const RegionShape& shape, const Setting& setting) {
         if (pass.side != grid.side) grid = resampled(grid, pass.side);
         const auto sea = sea_of(grid, setting);
         std::vector<double> uplift(sea.size()), factor(sea.size());
-        for (std::size_t post = 0; post < sea.size(); ++post) {
+        tbb::parallel_for(std::size_t{0}, sea.size(), [&](std::size_t post) {
             const glm::dvec2 at = place_of(grid, post);
             uplift[post] = setting.uplift_m_per_year(at);
             factor[post] = setting.erodibility_factor(at);
             // Roughness, so that water on even ground finds ways of its own.
-            if (sea[post] == 0) {
-                grid.heights_m[post] += 3.0 * setting.noise(at, 2.0 * grid.spacing_m, 97, 2);
-            } else {
-                grid.heights_m[post] = 0.0;
-            }
-        }
+            const double rough_m = 3.0 * setting.noise(at, 2.0 * grid.spacing_m, 97, 2);
+            grid.heights_m[post] = sea[post] == 0 ? grid.heights_m[post] + rough_m : 0.0;
+        });
         for (int step = 0; step < pass.steps; ++step) {
-            grid = erode(grid, sea, {pass.step_years, kErodibilityPerYear, kSteepestSlope, &uplift, &factor});
+            grid = erode(grid, sea, {pass.step_years, kErodibilityPerYear, kSteepestSlope, &uplift, &factor},
+                         shape.seed + static_cast<std::uint64_t>(step / 4));
         }
+        smooth(grid, 1);
     }
     return grid;
 }
@@ -156,7 +177,16 @@ void scale_heights(HeightGrid& grid) {
     const auto high =
         sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() - sorted.size() / 20'000 - 1);
     std::ranges::nth_element(sorted, high);
-    for (double& height_m : grid.heights_m) height_m *= kHighestMslM / *high;
+    for (double& height_m : grid.heights_m) height_m *= kHighestM / *high;
+}
+
+/// Raises the range, which makes its rivers steep on their last way to the sea.
+void lift(HeightGrid& grid) {
+    for (std::size_t post = 0; post < grid.heights_m.size(); ++post) {
+        const double from_coast_m = kCoastM - glm::dot(place_of(grid, post), direction(kCoastAzimuthDeg));
+        if (grid.heights_m[post] > 0.0)
+            grid.heights_m[post] += kLiftM * smooth_step(12'000.0, 54'000.0, from_coast_m);
+    }
 }
 
 /// Ice and gravel have made the floors of the valleys broad: heights above the nearest river downstream are
@@ -179,11 +209,11 @@ void broaden_valleys(HeightGrid& grid, const Drainage& water) {
 
 /// Lowers the coast below the sea and gives the sea a floor.
 void sink_coast(HeightGrid& grid, const Setting& setting) {
-    for (std::size_t post = 0; post < grid.heights_m.size(); ++post) {
+    tbb::parallel_for(std::size_t{0}, grid.heights_m.size(), [&](std::size_t post) {
         const double inland_m = setting.inland_m(place_of(grid, post));
-        grid.heights_m[post] -= kSubsidenceM * (1.0 - smooth_step(0.0, 26'000.0, inland_m));
+        grid.heights_m[post] -= kSubsidenceM * (1.0 - smooth_step(0.0, 34'000.0, inland_m));
         if (inland_m < 0.0) grid.heights_m[post] += inland_m * 0.02;
-    }
+    });
 }
 
 struct Lake {
@@ -193,15 +223,15 @@ struct Lake {
 
 /// Lakes lie on rivers of middle size, well apart.
 std::vector<Lake> choose_lakes(const HeightGrid& grid, const Drainage& water) {
-    constexpr double kApartM = 11'000.0;
+    constexpr double kApartM = 13'000.0;
     constexpr std::size_t kMost = 26;
     std::vector<Lake> lakes;
     for (auto post = water.order.rbegin(); post != water.order.rend() && lakes.size() < kMost; ++post) {
         const double height_m = grid.heights_m[*post];
         const double area_m2 = water.area_m2[*post];
-        if (height_m < 350.0 || height_m > 2'300.0 || area_m2 < 2.5e7 || area_m2 > 2.5e8) continue;
+        if (height_m < 350.0 || height_m > 2'300.0 || area_m2 < 4e7 || area_m2 > 9e8) continue;
         const std::uint32_t receiver = water.receiver[*post];
-        if (height_m - grid.heights_m[receiver] > 0.09 * grid.spacing_m) continue;
+        if (height_m - grid.heights_m[receiver] > 0.028 * grid.spacing_m) continue;
         const bool apart = std::ranges::all_of(lakes, [&](const Lake& lake) {
             return glm::distance(place_of(grid, lake.outlet), place_of(grid, *post)) > kApartM;
         });
@@ -213,7 +243,7 @@ std::vector<Lake> choose_lakes(const HeightGrid& grid, const Drainage& water) {
 /// Deepens the valley above each lake's outlet so that its floor is below the outlet's level. Above the shore
 /// the slopes meet the old ones again.
 std::vector<float> dig_lakes(HeightGrid& grid, const Drainage& water) {
-    constexpr double kRiseM = 45.0;
+    constexpr double kRiseM = 65.0;
     std::vector<float> level_m(grid.heights_m.size(), 0.0F);
     std::vector<std::int32_t> lake_of(grid.heights_m.size(), -1);
     const auto lakes = choose_lakes(grid, water);
@@ -272,7 +302,8 @@ SynthRegion::SynthRegion(const RegionShape& shape) : shape_(shape) {
     const Setting setting{shape.seed};
     grid_ = evolve(shape, setting);
     scale_heights(grid_);
-    const Drainage water = route_water(grid_, sea_of(grid_, setting));
+    lift(grid_);
+    const Drainage water = route_water(grid_, sea_of(grid_, setting), shape.seed);
     broaden_valleys(grid_, water);
     water_level_msl_m_ = spread(dig_lakes(grid_, water), grid_.side);
     sink_coast(grid_, setting);

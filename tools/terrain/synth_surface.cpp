@@ -16,7 +16,7 @@ namespace {
 constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 constexpr double kMetresPerDegree = kEquatorialRadiusM * kRadiansPerDegree;
 /// Posts may be this share of the distance from the detailed ground apart, up to the planet's spacing.
-constexpr double kSpacingPerDistance = 0.012;
+constexpr double kSpacingPerDistance = 0.018;
 constexpr double kPlanetSpacingM = 12'000.0;
 
 GeographicExtent benchmark_extent(const SynthRequest& request) {
