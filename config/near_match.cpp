@@ -5,6 +5,12 @@
 #include <vector>
 
 namespace eyepoint::config {
+namespace {
+
+/// Longer than any name could be: not a slip of the keyboard, and not worth the time.
+constexpr std::size_t kLongest = 100;
+
+}  // namespace
 
 std::size_t edit_distance(std::string_view from, std::string_view to) {
     // Rows of the dynamic programme: before_last, last and current prefix of `from` against every prefix of
@@ -26,8 +32,6 @@ std::size_t edit_distance(std::string_view from, std::string_view to) {
 }
 
 std::optional<std::string> near_match(std::string_view typed, std::span<const std::string> names) {
-    // Longer than any name could be: not a slip of the keyboard, and not worth the time.
-    constexpr std::size_t kLongest = 100;
     if (typed.empty() || typed.size() > kLongest || names.empty()) return std::nullopt;
     const auto distance = [&](const std::string& name) { return edit_distance(typed, name); };
     const auto nearest = std::ranges::min_element(names, {}, distance);

@@ -9,6 +9,8 @@
 namespace eyepoint::config {
 namespace {
 
+constexpr std::size_t kWidest = 40;  ///< value that comments still stand in one column behind
+
 std::string describe(const Origin& origin) {
     switch (origin.kind) {
         case Origin::Kind::BuiltIn:
@@ -32,7 +34,6 @@ std::string print_section(const Section& section, const LoadedSettings& loaded) 
                            describe(origin == loaded.origins.end() ? Origin{} : origin->second));
     }
     // Comments stand in one column, but one long path does not push all of them off the screen.
-    constexpr std::size_t kWidest = 40;
     std::size_t width = 0;
     for (const auto& [value, origin] : lines) {
         if (value.size() <= kWidest) width = std::max(width, value.size());

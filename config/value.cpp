@@ -35,6 +35,8 @@ std::size_t utf8_length(std::string_view text) {
     return length;
 }
 
+constexpr std::size_t kLongestLine = 200;
+
 bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }
 
 /// A file must be able to hold every text there is: TOML is UTF-8.
@@ -138,9 +140,8 @@ std::string toml_text(const Value& value) {
 }
 
 std::string one_line(std::string_view text) {
-    constexpr std::size_t kLongest = 200;
     std::string line;
-    while (!text.empty() && line.size() < kLongest) {
+    while (!text.empty() && line.size() < kLongestLine) {
         const auto length = utf8_length(text);
         const bool shown = length != 0 && !is_control(text.front());
         line += shown ? text.substr(0, length) : std::string_view("?");

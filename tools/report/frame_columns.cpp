@@ -6,19 +6,30 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace eyepoint::tools {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
 
-bool is_frame(const nlohmann::json& line) {
+bool is_frame(const Json& line) {
     const auto frame = line.find("frame");
     return frame != line.end() && frame->is_number();
 }
 
-void append(FrameColumns& record, const nlohmann::json& line) {
-    const auto put = [&](const std::string& key, const nlohmann::json& value) {
+RecordHeader header_of(const Json& line) {
+    RecordHeader header;
+    for (const auto& [key, value] : line.items()) {
+        header.emplace_back(key, value.is_string() ? value.get<std::string>() : value.dump());
+    }
+    return header;
+}
+
+void append(FrameColumns& record, const Json& line) {
+    const auto put = [&](const std::string& key, const Json& value) {
         if (!value.is_number()) return;
         auto& column = record.columns[key];
         column.resize(record.frames, kAbsent);
@@ -48,9 +59,9 @@ tl::expected<FrameColumns, std::string> read_frame_columns(const std::filesystem
     FrameColumns record;
     std::string text;
     for (std::size_t number = 1; std::getline(stream, text); ++number) {
-        const auto line = nlohmann::json::parse(text, nullptr, false);
+        const auto line = Json::parse(text, nullptr, false);
         if (line.is_object() && number == 1 && !is_frame(line)) {
-            record.header = line;
+            record.header = header_of(line);
         } else if (line.is_object() && is_frame(line)) {
             append(record, line);
         } else if (line.is_discarded() && stream.eof() && record.frames > 0) {

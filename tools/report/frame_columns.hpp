@@ -4,15 +4,18 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include <nlohmann/json.hpp>
 #include <tl/expected.hpp>
 
 namespace eyepoint::tools {
 
+/// Keys and their values as text, in the order of the file.
+using RecordHeader = std::vector<std::pair<std::string, std::string>>;
+
 struct FrameColumns {
-    nlohmann::json header;  ///< the first line's object; empty where the record has none
+    RecordHeader header;  ///< the first line; empty where the record has none
     std::size_t frames = 0;
     /// By key, `frames` long; NaN where a frame does not say. Only numbers are kept, and one column is made:
     /// transport_delay_ms is arrival_to_complete_ms of the frames that drew a packet first (new_packet).

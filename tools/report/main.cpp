@@ -1,5 +1,7 @@
 /// eyepoint-report: a run's frame record and pictures as one page, and pictures as a contact sheet.
+#include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -70,9 +72,7 @@ void add_picture_options(CLI::App& command, Request& request) {
         ->capture_default_str();
 }
 
-}  // namespace
-
-int main(int argument_count, char** arguments) {
+int run(int argument_count, char** arguments) {
     CLI::App app(
         "Turns a run of eyepoint into a page to read.\n"
         "  eyepoint-report page --record flight.jsonl --pictures pictures -o report.html\n"
@@ -105,4 +105,15 @@ int main(int argument_count, char** arguments) {
     }
     fmt::print("{}\n", (is_page ? page : sheet).output.string());
     return EXIT_SUCCESS;
+}
+
+}  // namespace
+
+int main(int argument_count, char** arguments) {
+    try {
+        return run(argument_count, arguments);
+    } catch (const std::exception& fault) {
+        std::fprintf(stderr, "eyepoint-report: unexpected fault: %s\n", fault.what());
+        return EXIT_FAILURE;
+    }
 }

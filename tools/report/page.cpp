@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "tools/report/page_texts.hpp"
 #include "tools/report/summary.hpp"
@@ -19,6 +20,7 @@ namespace {
 /// Points a plot has at most: more than a screen has columns, and still quick on a phone.
 constexpr std::size_t kMostPoints = 3000;
 constexpr int kJpegQuality = 82;
+constexpr std::string_view kBase64Digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
 struct SummaryRow {
     const char* key;
@@ -65,14 +67,13 @@ std::string escaped(std::string_view text) {
 }
 
 std::string base64(std::string_view bytes) {
-    constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string result;
     for (std::size_t i = 0; i < bytes.size(); i += 3) {
         const auto at = [&](std::size_t j) -> unsigned {
             return j < bytes.size() ? static_cast<unsigned char>(bytes[j]) : 0U;
         };
         const unsigned group = at(i) << 16U | at(i + 1) << 8U | at(i + 2);
-        const auto digit = [&](unsigned shift) { return kDigits[group >> shift & 63U]; };
+        const auto digit = [&](unsigned shift) { return kBase64Digits[group >> shift & 63U]; };
         result += {digit(18), digit(12), i + 1 < bytes.size() ? digit(6) : '=',
                    i + 2 < bytes.size() ? digit(0) : '='};
     }
@@ -94,6 +95,9 @@ std::string fact(std::string_view name, std::string_view value) {
     return fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", escaped(name), escaped(value));
 }
 
+/// The header's mark that it is one.
+constexpr std::string_view kFormatKey = "eyepoint_record";
+
 struct HeaderLabel {
     const char* key;
     const char* label;
@@ -109,24 +113,18 @@ constexpr std::array kHeaderLabels = {
     HeaderLabel{"rate_hz", "Rate asked for, Hz"},
 };
 
-std::string plain_text(const nlohmann::json& value) {
-    return value.is_string() ? value.get<std::string>() : value.dump();
-}
-
 /// What the record's header says: the known keys first, under their labels, then the rest under their own
 /// names.
-std::string header_facts(const nlohmann::json& header) {
-    if (!header.is_object()) return {};
+std::string header_facts(const RecordHeader& header) {
     std::string facts;
     for (const HeaderLabel& known : kHeaderLabels) {
-        if (header.contains(known.key)) facts += fact(known.label, plain_text(header[known.key]));
+        const auto said = std::ranges::find(header, known.key, &RecordHeader::value_type::first);
+        if (said != header.end()) facts += fact(known.label, said->second);
     }
-    for (const auto& [key, value] : header.items()) {
-        if (key == "eyepoint_record") continue;
-        if (std::ranges::find_if(kHeaderLabels, [&](const HeaderLabel& known) { return key == known.key; }) ==
-            kHeaderLabels.end()) {
-            facts += fact(key, plain_text(value));
-        }
+    for (const auto& said : header) {
+        const auto is_it = [&](const HeaderLabel& known) { return said.first == known.key; };
+        if (said.first == kFormatKey || std::ranges::any_of(kHeaderLabels, is_it)) continue;
+        facts += fact(said.first, said.second);
     }
     return facts;
 }
@@ -164,11 +162,12 @@ std::string summary_rows(const FrameColumns& record) {
     return rows;
 }
 
+/// Columns that are kept to all digits and not taken the largest of.
+constexpr std::array<std::string_view, 7> kTimeAndPlace = {
+    "frame", "host_frame", "time_s", "sim_time_s", "latitude_deg", "longitude_deg", "ellipsoidal_height_m"};
+
 bool is_of_time_or_place(const std::string& key) {
-    constexpr std::array<std::string_view, 7> kKeys = {
-        "frame",         "host_frame",          "time_s", "sim_time_s", "latitude_deg",
-        "longitude_deg", "ellipsoidal_height_m"};
-    return std::ranges::find(kKeys, key) != kKeys.end();
+    return std::ranges::find(kTimeAndPlace, key) != kTimeAndPlace.end();
 }
 
 /// The columns for the page's script, thinned; numbers to six significant digits, places to all.
@@ -241,17 +240,17 @@ tl::expected<std::string, std::string> report_page(const std::string& title, con
     const std::size_t step = (record.frames + kMostPoints - 1) / kMostPoints;
     const std::array<std::pair<std::string_view, std::string>, 10> parts = {{
         {"title", escaped(title)},
-        {"style", std::string(page_css)},
+        {"style", std::string(kPageCss)},
         {"run", run_facts(record)},
         {"machine", header_facts(record.header)},
         {"notes", notes(record, step)},
         {"summary", summary_rows(record)},
         {"pictures", *figures},
-        {"chart_library", std::string(chart_js)},
+        {"chart_library", std::string(kChartJs)},
         {"data", plot_data(record, step)},
-        {"script", std::string(page_js)},
+        {"script", std::string(kPageJs)},
     }};
-    return fill(page_html, parts);
+    return fill(kPageHtml, parts);
 }
 
 tl::expected<void, std::string> write_whole(const std::filesystem::path& file, const std::string& text) {

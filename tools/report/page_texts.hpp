@@ -5,9 +5,9 @@
 
 namespace eyepoint::tools {
 
-extern const std::string_view page_html;
-extern const std::string_view page_css;
-extern const std::string_view page_js;
-extern const std::string_view chart_js;
+extern const std::string_view kPageHtml;
+extern const std::string_view kPageCss;
+extern const std::string_view kPageJs;
+extern const std::string_view kChartJs;
 
 }  // namespace eyepoint::tools

@@ -14,9 +14,9 @@
 namespace eyepoint::tools {
 namespace {
 
+constexpr std::array<std::string_view, 3> kExtensions = {".png", ".jpg", ".jpeg"};
+
 bool is_picture(const std::filesystem::directory_entry& entry) {
-    using namespace std::string_view_literals;
-    constexpr std::array kExtensions = {".png"sv, ".jpg"sv, ".jpeg"sv};
     const auto extension = entry.path().extension().string();
     return entry.is_regular_file() && std::ranges::find(kExtensions, extension) != kExtensions.end();
 }

@@ -26,9 +26,10 @@ class FrameColumnsTest : public testing::Test {
 
 TEST_F(FrameColumnsTest, TheHeaderAndAColumnOfEveryNumberAreRead) {
     const auto record = read(
-        "{\"gl_renderer\":\"llvmpipe\"}\n{\"frame\":1,\"frame_ms\":4.5}\n{\"frame\":2,\"frame_ms\":5}\n");
+        "{\"rate_hz\":30.0,\"gl_renderer\":\"llvmpipe\"}\n{\"frame\":1,\"frame_ms\":4.5}\n{\"frame\":2,"
+        "\"frame_ms\":5}\n");
     ASSERT_TRUE(record) << record.error();
-    EXPECT_EQ(record->header["gl_renderer"], "llvmpipe");
+    EXPECT_EQ(record->header, (RecordHeader{{"rate_hz", "30.0"}, {"gl_renderer", "llvmpipe"}}));
     EXPECT_EQ(record->frames, 2U);
     EXPECT_THAT(*record->find("frame_ms"), ElementsAre(4.5, 5.0));
     EXPECT_EQ(record->find("triangles"), nullptr);

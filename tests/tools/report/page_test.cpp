@@ -54,7 +54,7 @@ TEST(ReportPage, IsWholeInItself) {
 
 TEST(ReportPage, WhatTheRecordSaysCannotBecomeMarkup) {
     auto record = record_of(2);
-    record.header["terrain"] = "<b>&\"";
+    record.header.emplace_back("terrain", "<b>&\"");
     record.columns["</script><script>"] = {1.0, 2.0};
     const auto page = page_of(record, "<i>run</i>");
     EXPECT_THAT(
