@@ -101,7 +101,7 @@ std::uint64_t TerrainScene::load_all(const View& view) {
     while (true) {
         (void)pager_->publish(kAll, frame_);
         (void)select(view);
-        if (!pager_->wait_for_load()) break;
+        if (!pager_->wait_for_loads()) break;
     }
     return pager_->counters().loaded - before;
 }

@@ -61,13 +61,9 @@ BlockVertex make_vertex(const BlockData& data, int row, int column) {
 }  // namespace
 
 SplitPosition split(const Ecef& point) {
-    SplitPosition result;
-    for (int axis = 0; axis < 3; ++axis) {
-        const auto i = static_cast<std::size_t>(axis);
-        result.high[i] = static_cast<float>(point[axis]);
-        result.low[i] = static_cast<float>(point[axis] - static_cast<double>(result.high[i]));
-    }
-    return result;
+    const glm::vec3 high{point};
+    const glm::vec3 low{point - glm::dvec3{high}};
+    return {{high.x, high.y, high.z}, {low.x, low.y, low.z}};
 }
 
 std::size_t Block::bytes() const {

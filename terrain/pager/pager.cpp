@@ -144,10 +144,9 @@ void Pager::evict(std::uint64_t frame) {
     }
 }
 
-bool Pager::wait_for_load() {
+bool Pager::wait_for_loads() {
     std::unique_lock lock(mutex_);
-    const auto nothing_under_way = [this] { return queue_.empty() && under_way_.size() == finished_.size(); };
-    done_.wait(lock, [&] { return !finished_.empty() || nothing_under_way(); });
+    done_.wait(lock, [this] { return queue_.empty() && under_way_.size() == finished_.size(); });
     return !finished_.empty();
 }
 

@@ -1,0 +1,166 @@
+#include <cmath>
+#include <random>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "terrain/geodesy/earth.hpp"
+#include "terrain/lod/regular.hpp"
+#include "terrain/pager/pager.hpp"
+#include "tests/support/analytic_terrain.hpp"
+#include "tests/terrain/lod/drawn_mesh.hpp"
+
+namespace eyepoint::terrain {
+namespace {
+
+using testing::AnalyticTerrain;
+using testing::find_faults;
+using testing::MeshFaults;
+using testing::ScratchFolder;
+
+/// A view volume of 60 by 45 degrees around a direction.
+LodView look(const Ecef& eye, const glm::dvec3& forward, const glm::dvec3& up_hint, double tau_px) {
+    const glm::dvec3 f = glm::normalize(forward), r = glm::normalize(glm::cross(f, up_hint)),
+                     u = glm::cross(r, f);
+    const double right = std::tan(0.5235987755982988), top = std::tan(0.39269908169872414);
+    return {.eye = eye,
+            .sides = {glm::normalize(r + f * right), glm::normalize(-r + f * right),
+                      glm::normalize(u + f * top), glm::normalize(-u + f * top)},
+            .kappa_px = 480.0 / (2.0 * top),
+            .tau_px = tau_px,
+            .near_m = 0.5};
+}
+
+/// Everything the view asks for, loaded; then the selection.
+class Flight {
+  public:
+    explicit Flight(const AnalyticTerrain& terrain)
+        : database_(testing::make_database(terrain, scratch_.path() / "db")),
+          pager_(std::move(Pager::create(database_, {1, 1ULL << 30}).value())) {}
+
+    const Selection& settle(const LodView& view) {
+        while (true) {
+            pager_->publish(100000, frame_);
+            const Selection& selection = step(view);
+            if (!pager_->wait_for_loads()) return selection;
+        }
+    }
+    const Selection& step(const LodView& view) {
+        const Selection& selection = lod_.select(view, pager_->tree(), ++frame_);
+        pager_->request(selection.wishes);
+        return selection;
+    }
+    std::size_t publish(std::size_t most) { return pager_->publish(most, frame_); }
+    bool wait() { return pager_->wait_for_loads(); }
+    MeshFaults faults(const Selection& selection) const {
+        return find_faults(selection.draws, lod_.indices());
+    }
+
+  private:
+    ScratchFolder scratch_;
+    std::shared_ptr<const Database> database_;
+    std::unique_ptr<Pager> pager_;
+    RegularLod lod_;
+    std::uint64_t frame_ = 0;
+};
+
+void expect_whole(const MeshFaults& faults, const std::string& where) {
+    EXPECT_GT(faults.edges, 0U) << where;
+    EXPECT_EQ(faults.cracks, 0U) << where;
+    EXPECT_EQ(faults.overlaps, 0U) << where;
+    EXPECT_EQ(faults.unequal_bits, 0U) << where;
+    EXPECT_EQ(faults.folded, 0U) << where;
+}
+
+struct Place {
+    const char* name;
+    AnalyticTerrain terrain;
+};
+void PrintTo(const Place& place, std::ostream* stream) { *stream << place.name; }
+
+class RegularLodAt : public ::testing::TestWithParam<Place> {};
+
+TEST_P(RegularLodAt, DrawnMeshHasNoCracksFromRandomEyes) {
+    const AnalyticTerrain terrain = GetParam().terrain;
+    Flight flight(terrain);
+    std::mt19937_64 random(20261122);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    for (int i = 0; i < 16; ++i) {
+        const double latitude_deg =
+            std::min(90.0, terrain.latitude_deg + (unit(random) * 2.0 - 1.0) * 1.2 * terrain.half_size_deg);
+        const double longitude_deg =
+            terrain.longitude_deg + (unit(random) * 2.0 - 1.0) * 1.2 * terrain.half_size_deg;
+        const double above_m = std::pow(10.0, 0.3 + 5.5 * unit(random));
+        const double ground_m = testing::analytic_height_m(terrain, latitude_deg, longitude_deg);
+        const Ecef eye = to_ecef({latitude_deg, longitude_deg, EllipsoidalHeight{ground_m + above_m}});
+        const glm::dmat3 enu = east_north_up(std::min(latitude_deg, 90.0), longitude_deg);
+        const double course = unit(random) * 6.283, down = -1.5 * unit(random) * unit(random);
+        const glm::dvec3 forward = enu * glm::dvec3{std::sin(course) * std::cos(down),
+                                                    std::cos(course) * std::cos(down), std::sin(down)};
+        const LodView view = look(eye, forward, enu * glm::dvec3{0.1, 0.05, 1.0}, 0.5 + 4.0 * unit(random));
+        const Selection& selection = flight.settle(view);
+        expect_whole(flight.faults(selection), std::string(GetParam().name) + ", eye " + std::to_string(i));
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Earth, RegularLodAt,
+    ::testing::Values(Place{"alps", {}}, Place{"equator", {.latitude_deg = 0.0, .longitude_deg = 0.0}},
+                      Place{"antimeridian", {.latitude_deg = -16.8, .longitude_deg = 180.0}},
+                      Place{"pole", {.latitude_deg = 89.7, .longitude_deg = 30.0, .detail_depth = 9}}),
+    [](const auto& place) { return std::string(place.param.name); });
+
+TEST(RegularLod, HasNoCracksWhileBlocksAreStillArriving) {
+    Flight flight({});
+    const Ecef eye = to_ecef({46.5, 8.25, EllipsoidalHeight{2500.0}});
+    const glm::dmat3 enu = east_north_up(46.5, 8.25);
+    const LodView view = look(eye, enu * glm::dvec3{0.3, 1.0, -0.2}, enu[2], 1.0);
+    std::uint64_t triangles = 0;
+    for (int frame = 0; frame < 400; ++frame) {
+        const Selection& selection = flight.step(view);
+        expect_whole(flight.faults(selection), "frame " + std::to_string(frame));
+        triangles = std::max(triangles, selection.triangles);
+        if (selection.wishes.empty()) break;
+        flight.wait();
+        flight.publish(3);
+    }
+    EXPECT_GT(triangles, 2000U);
+}
+
+TEST(RegularLod, ASmallerToleranceDrawsMore) {
+    Flight flight({});
+    const Ecef eye = to_ecef({46.5, 8.25, EllipsoidalHeight{3000.0}});
+    const glm::dmat3 enu = east_north_up(46.5, 8.25);
+    std::uint64_t before = 0;
+    for (const double tau_px : {8.0, 4.0, 2.0, 1.0, 0.5}) {
+        const std::uint64_t triangles =
+            flight.settle(look(eye, enu * glm::dvec3{0.0, 1.0, -0.15}, enu[2], tau_px)).triangles;
+        EXPECT_GE(triangles, before) << "tau " << tau_px;
+        before = triangles;
+    }
+    EXPECT_GT(before, 20000U);
+}
+
+TEST(RegularLod, EveryDrawnBlockIsFineEnoughOnceLoaded) {
+    Flight flight({});
+    const Ecef eye = to_ecef({46.5, 8.25, EllipsoidalHeight{3000.0}});
+    const glm::dmat3 enu = east_north_up(46.5, 8.25);
+    const LodView view = look(eye, enu * glm::dvec3{0.0, 1.0, -0.15}, enu[2], 1.0);
+    for (const BlockDraw& draw : flight.settle(view).draws) {
+        const TileNode& node = *draw.node;
+        const double error_m = node.info.delta_m[static_cast<std::size_t>(node.mark.level)];
+        const double distance = std::max(distance_m(node.bounds, eye), view.near_m);
+        EXPECT_LE(view.kappa_px * error_m / distance, view.tau_px * (1.0 + 1e-9));
+    }
+}
+
+TEST(RegularLod, FromSpaceTheWholeVisibleHemisphereIsDrawn) {
+    Flight flight({.amplitude_m = 0.0});
+    const Ecef eye{3.0e7, 0.0, 0.0};
+    const Selection& selection = flight.settle(look(eye, {-1.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, 1.0));
+    expect_whole(flight.faults(selection), "space");
+    EXPECT_EQ(selection.draws.size(), 2U) << "both roots, the far side hidden inside them";
+}
+
+}  // namespace
+}  // namespace eyepoint::terrain
