@@ -15,12 +15,15 @@ namespace {
 /// Weight of the membrane beside the plate: it takes over at voids wider than about 30 posts and keeps the
 /// plate from swinging out.
 constexpr float kTension = 0.03F;
+/// Relief beside the ground's own roughness: the plate carries part of it in from the rim.
+constexpr double kReliefShare = 0.6;
 /// Posts around a void that are looked at for its roughness.
 constexpr int kSurroundings = 8;
 
 struct Void {
     std::vector<std::array<int, 2>> posts;  ///< column, row
     float deepest = 0.0F;                   ///< posts from the rim
+    bool enclosed = true;                   ///< does not reach the grid's edge
 };
 
 /// 8-connected areas of void posts.
@@ -34,6 +37,8 @@ std::vector<Void> find_voids(const HeightGrid& grid, std::span<const float> dist
         seen[post] = 1;
         area.posts.push_back({column, row});
         area.deepest = std::max(area.deepest, distance[post]);
+        const bool at_edge = column == 0 || row == 0 || column == grid.columns - 1 || row == grid.rows - 1;
+        area.enclosed = area.enclosed && !at_edge;
     };
     for (int row = 0; row < grid.rows; ++row) {
         for (int column = 0; column < grid.columns; ++column) {
@@ -109,9 +114,9 @@ class Patch {
             posts_[local(rim_[i][0], rim_[i][1])] = {ThinPlate::kKnown, delta};
             mean += delta / static_cast<double>(rim_.size());
         }
-        std::vector<float> heights =
-            plate().solve(std::vector<float>(area_.posts.size(), static_cast<float>(mean)));
-        for (std::size_t i = 0; i < heights.size(); ++i) heights[i] += void_shape[i];
+        const std::vector<double> deltas = plate().solve(std::vector<double>(area_.posts.size(), mean));
+        std::vector<float> heights = void_shape;
+        for (std::size_t i = 0; i < heights.size(); ++i) heights[i] += static_cast<float>(deltas[i]);
         return heights;
     }
 
@@ -149,7 +154,7 @@ class Patch {
             }
             shape = coarser(positions);
         }
-        const auto roughness = static_cast<float>(roughness_m());
+        const auto roughness = static_cast<float>(kReliefShare * roughness_m());
         for (std::size_t i = 0; i < posts.size(); ++i)
             shape[i] += roughness * ridged_relief(posts[i][0], posts[i][1]);
         return shape;
@@ -188,11 +193,13 @@ class Patch {
 
 }  // namespace
 
-float deepest_void_posts(double spacing_deg) {
+float deepest_void_posts(double spacing_deg, bool enclosed) {
     constexpr double kMostPosts = 64.0;
     constexpr double kMostDeg = 0.1;
     constexpr double kLeastPosts = 3.0;
-    return static_cast<float>(std::max(kLeastPosts, std::min(kMostPosts, kMostDeg / spacing_deg)));
+    constexpr double kEnclosedFactor = 3.0;
+    const double posts = std::max(kLeastPosts, std::min(kMostPosts, kMostDeg / spacing_deg));
+    return static_cast<float>(enclosed ? kEnclosedFactor * posts : posts);
 }
 
 VoidFill fill_voids(HeightGrid& grid, const CoarserSurface& coarser) {
@@ -202,7 +209,7 @@ VoidFill fill_voids(HeightGrid& grid, const CoarserSurface& coarser) {
     if (std::find(known.begin(), known.end(), std::uint8_t{0}) == known.end()) return {};
     VoidFill result;
     for (const Void& area : find_voids(grid, distance_to_sites(known, grid.columns, grid.rows))) {
-        if (area.deepest > deepest_void_posts(grid.spacing_deg)) {
+        if (area.deepest > deepest_void_posts(grid.spacing_deg, area.enclosed)) {
             result.outside += area.posts.size();
             continue;
         }

@@ -10,8 +10,9 @@
 namespace eyepoint::tools {
 
 /// A void that reaches further than this from its rim is no void but an area outside of what the file covers:
-/// 64 posts (6 km in SRTM) or a tenth of a degree, whichever is less, but at least 3 posts.
-[[nodiscard]] float deepest_void_posts(double spacing_deg);
+/// 64 posts (6 km in SRTM) or a tenth of a degree, whichever is less, but at least 3 posts; three times as
+/// much where heights enclose it, for then the file means to cover it.
+[[nodiscard]] float deepest_void_posts(double spacing_deg, bool enclosed);
 
 /// Heights of a coarser surface, MSL metres, at posts of a grid.
 using CoarserSurface = std::function<std::vector<float>(std::span<const GridPosition>)>;

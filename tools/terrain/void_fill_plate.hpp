@@ -29,7 +29,7 @@ class ThinPlate {
     void add(std::span<const Post> posts, std::span<const float> factors);
 
     /// Values of the unknowns, starting from the given ones.
-    [[nodiscard]] std::vector<float> solve(std::vector<float> start) const;
+    [[nodiscard]] std::vector<double> solve(std::vector<double> start) const;
 
   private:
     struct Term {
@@ -37,8 +37,8 @@ class ThinPlate {
         std::array<float, 4> factor{};
         float known = 0.0F;
     };
-    [[nodiscard]] std::vector<float> differences(std::span<const float> values, bool with_known) const;
-    [[nodiscard]] std::vector<float> gathered(std::span<const float> residuals) const;
+    [[nodiscard]] std::vector<double> differences(std::span<const double> values, bool with_known) const;
+    [[nodiscard]] std::vector<double> gathered(std::span<const double> residuals) const;
 
     std::size_t unknowns_;
     std::vector<Term> terms_;

@@ -46,7 +46,7 @@ float ridged_relief(double column, double row) {
     constexpr double kLongestPosts = 64.0;
     constexpr double kHurst = 0.9;
     // Measured once over 256 x 256 posts: makes the second difference over 2 posts 1 in the root mean square.
-    constexpr double kScale = 3.4;
+    constexpr double kScale = 24.3;
     double relief = 0.0;
     double wavelength = kLongestPosts;
     double amplitude = 1.0;
