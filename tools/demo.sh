@@ -110,7 +110,7 @@ make_video() {
         END { if (file) printf "file %s\nduration %.6f\n", file, period }
     ' "$out/flight.jsonl" >"$out/pictures.ffconcat"
     timeout "$flight_limit_s" ffmpeg -nostdin -loglevel error -y -f concat -i "$out/pictures.ffconcat" \
-        -vf "fps=$picture_rate_hz,format=yuv420p" -c:v libx264 -crf 20 -movflags +faststart "$out/flight.partial.mp4"
+        -vf "fps=$picture_rate_hz,format=yuv420p" -c:v libx264 -preset veryfast -crf 20 -movflags +faststart "$out/flight.partial.mp4"
     mv "$out/flight.partial.mp4" "$out/flight.mp4"
     rm "$out/pictures.ffconcat"
 }
