@@ -29,7 +29,7 @@ class ExactCopy {
   public:
     explicit ExactCopy(std::span<const std::byte> bytes)
         : bytes_(std::make_unique<std::byte[]>(bytes.size())), size_(bytes.size()) {
-        std::copy(bytes.begin(), bytes.end(), bytes_.get());
+        for (std::size_t i = 0; i < size_; ++i) bytes_[i] = bytes[i];
     }
     /// Of the first `size` bytes.
     ExactCopy(std::span<const std::byte> bytes, std::size_t size) : ExactCopy(bytes.first(size)) {}
@@ -41,7 +41,7 @@ class ExactCopy {
 };
 
 inline Bytes operator+(Bytes a, const Bytes& b) {
-    a.insert(a.end(), b.begin(), b.end());
+    for (const std::byte byte : b) a.push_back(byte);
     return a;
 }
 

@@ -16,7 +16,7 @@ struct ConvertRequest {
     std::filesystem::path track;
     std::filesystem::path output;
     IgcAltitude altitude = IgcAltitude::Automatic;
-    FlightSampling sampling;
+    FlightSampling sampling{};
     std::uint16_t port = 5560;  ///< destination port of the packets written
 };
 
