@@ -22,12 +22,12 @@ struct Pass {
     int steps;
     double step_years;
 };
-constexpr std::array<Pass, 4> kPasses{{{161, 140, 2e5}, {321, 20, 1e5}, {641, 14, 6e4}, {1281, 6, 2.5e4}}};
+constexpr std::array<Pass, 4> kPasses{{{161, 120, 2e5}, {321, 20, 1e5}, {641, 10, 7e4}, {1281, 4, 3e4}}};
 
 constexpr double kUpliftMPerYear = 1e-3;
 constexpr double kErodibilityPerYear = 5.5e-6;
 constexpr double kSteepestSlope = 1.2;
-constexpr double kHighestM = 3'350.0;
+constexpr double kHighestM = 3'500.0;
 /// Then the whole range, but not the coast, is lifted by this.
 constexpr double kLiftM = 750.0;
 /// A post that drains more than this is a river.
@@ -108,18 +108,6 @@ double bilinear(const HeightGrid& grid, const std::vector<Value>& values, double
     return (at(0, 0) * (1.0 - u) + at(0, 1) * u) * (1.0 - v) + (at(1, 0) * (1.0 - u) + at(1, 1) * u) * v;
 }
 
-HeightGrid resampled(const HeightGrid& grid, int side) {
-    HeightGrid result{side, grid.spacing_m * (grid.side - 1) / (side - 1), {}};
-    const double scale = static_cast<double>(grid.side - 1) / (side - 1);
-    result.heights_m.reserve(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
-    for (int row = 0; row < side; ++row) {
-        for (int column = 0; column < side; ++column) {
-            result.heights_m.push_back(bilinear(grid, grid.heights_m, column * scale, row * scale));
-        }
-    }
-    return result;
-}
-
 std::vector<std::uint8_t> sea_of(const HeightGrid& grid, const Setting& setting) {
     std::vector<std::uint8_t> sea(grid.heights_m.size());
     for (std::size_t post = 0; post < sea.size(); ++post)
@@ -146,12 +134,53 @@ void smooth(HeightGrid& grid, int times) {
     }
 }
 
+/// Catmull-Rom weights of four posts for a place a share t of the way from the second to the third.
+std::array<double, 4> cubic_weights(double t) {
+    return {((-0.5 * t + 1.0) * t - 0.5) * t, (1.5 * t - 2.5) * t * t + 1.0, ((-1.5 * t + 2.0) * t + 0.5) * t,
+            (0.5 * t - 0.5) * t * t};
+}
+
+double bicubic(const HeightGrid& grid, double column, double row) {
+    const int c = std::clamp(static_cast<int>(column), 1, grid.side - 3);
+    const int r = std::clamp(static_cast<int>(row), 1, grid.side - 3);
+    const auto across = cubic_weights(column - c);
+    const auto up = cubic_weights(row - r);
+    double sum = 0.0;
+    for (int j = 0; j < 4; ++j) {
+        const double* post = &grid.heights_m[static_cast<std::size_t>((r + j - 1) * grid.side + c - 1)];
+        sum += up[static_cast<std::size_t>(j)] *
+               (across[0] * post[0] + across[1] * post[1] + across[2] * post[2] + across[3] * post[3]);
+    }
+    return sum;
+}
+
+/// The grid on another number of posts, bent: each place takes its height from a place beside it, up to some
+/// spacings away, as a noise a few spacings wide says. Valleys and ridges that ran along the grid then wind.
+HeightGrid bent(const HeightGrid& grid, int side, const Setting& setting, std::uint64_t salt) {
+    HeightGrid result{side, grid.spacing_m * (grid.side - 1) / (side - 1), {}};
+    result.heights_m.resize(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
+    const double half = grid.spacing_m * (grid.side - 1) / 2.0;
+    tbb::parallel_for(std::size_t{0}, result.heights_m.size(), [&](std::size_t post) {
+        const glm::dvec2 at = place_of(result, post);
+        const double width_m = 9.0 * grid.spacing_m;
+        const double bend_m = 3.2 * grid.spacing_m;
+        const glm::dvec2 from{at.x + bend_m * setting.noise(at, width_m, salt, 3),
+                              at.y + bend_m * setting.noise(at, width_m, salt + 1, 3)};
+        const auto index = [&](double metres) {
+            return std::clamp((metres + half) / grid.spacing_m, 0.0, grid.side - 1.0);
+        };
+        result.heights_m[post] = bicubic(grid, index(from.x), index(from.y));
+    });
+    return result;
+}
+
 HeightGrid evolve(const RegionShape& shape, const Setting& setting) {
     const int first = kPasses.front().side;
     HeightGrid grid{first, 2.0 * shape.half_width_m / (first - 1),
                     std::vector<double>(static_cast<std::size_t>(first) * static_cast<std::size_t>(first))};
     for (const Pass& pass : kPasses) {
-        if (pass.side != grid.side) grid = resampled(grid, pass.side);
+        if (pass.side != grid.side)
+            grid = bent(grid, pass.side, setting, static_cast<std::uint64_t>(pass.side));
         const auto sea = sea_of(grid, setting);
         std::vector<double> uplift(sea.size()), factor(sea.size());
         tbb::parallel_for(std::size_t{0}, sea.size(), [&](std::size_t post) {
@@ -168,7 +197,7 @@ HeightGrid evolve(const RegionShape& shape, const Setting& setting) {
         }
         smooth(grid, 1);
     }
-    return grid;
+    return bent(grid, grid.side, setting, 7);
 }
 
 /// Scales the range so that its highest summits are as high as they should be.
@@ -189,21 +218,27 @@ void lift(HeightGrid& grid) {
     }
 }
 
-/// Ice and gravel have made the floors of the valleys broad: heights above the nearest river downstream are
-/// lifted where they are small, the more the greater the river.
+/// Ice and gravel have made the floors of the valleys broad: a floor lies above its river's bed, the more the
+/// greater the river, and no floor lies below the one it drains to. Slopes run out on the floor of their
+/// valley.
 void broaden_valleys(HeightGrid& grid, const Drainage& water) {
-    const std::vector<double> before = grid.heights_m;
-    std::vector<std::uint32_t> river(before.size());
+    const std::vector<double> bed = grid.heights_m;
+    std::vector<double> floor_m = bed;
+    std::vector<std::uint32_t> river(bed.size());
     for (const std::uint32_t post : water.order) {
         const std::uint32_t receiver = water.receiver[post];
-        const bool is_river = receiver == post || water.area_m2[post] >= kRiverAreaM2;
-        river[post] = is_river ? post : river[receiver];
-        const double area_m2 = water.area_m2[river[post]];
-        const double fill_m = 12.0 + 75.0 * std::min(1.0, std::pow(area_m2 / 4e8, 0.45));
-        const double above_m = std::max(0.0, before[post] - before[river[post]]);
+        river[post] = post;
         if (receiver == post) continue;
+        if (water.area_m2[post] >= kRiverAreaM2) {
+            const double fill_m = 80.0 * std::min(1.0, std::pow(water.area_m2[post] / 4e8, 0.45));
+            floor_m[post] = std::max(bed[post] + fill_m, floor_m[receiver]);
+        } else {
+            river[post] = river[receiver];
+        }
+        const double above_m = std::max(0.0, bed[post] - bed[river[post]]);
+        const double fill_m = floor_m[river[post]] - bed[river[post]];
         grid.heights_m[post] =
-            before[river[post]] + std::cbrt(above_m * above_m * above_m + fill_m * fill_m * fill_m);
+            bed[river[post]] + std::cbrt(above_m * above_m * above_m + fill_m * fill_m * fill_m);
     }
 }
 
@@ -276,26 +311,6 @@ std::vector<float> spread(const std::vector<float>& level_m, int side) {
     return result;
 }
 
-/// Catmull-Rom weights of four posts for a place a share t of the way from the second to the third.
-std::array<double, 4> cubic_weights(double t) {
-    return {((-0.5 * t + 1.0) * t - 0.5) * t, (1.5 * t - 2.5) * t * t + 1.0, ((-1.5 * t + 2.0) * t + 0.5) * t,
-            (0.5 * t - 0.5) * t * t};
-}
-
-double bicubic(const HeightGrid& grid, double column, double row) {
-    const int c = std::clamp(static_cast<int>(column), 1, grid.side - 3);
-    const int r = std::clamp(static_cast<int>(row), 1, grid.side - 3);
-    const auto across = cubic_weights(column - c);
-    const auto up = cubic_weights(row - r);
-    double sum = 0.0;
-    for (int j = 0; j < 4; ++j) {
-        const double* post = &grid.heights_m[static_cast<std::size_t>((r + j - 1) * grid.side + c - 1)];
-        sum += up[static_cast<std::size_t>(j)] *
-               (across[0] * post[0] + across[1] * post[1] + across[2] * post[2] + across[3] * post[3]);
-    }
-    return sum;
-}
-
 }  // namespace
 
 SynthRegion::SynthRegion(const RegionShape& shape) : shape_(shape) {
@@ -305,6 +320,7 @@ SynthRegion::SynthRegion(const RegionShape& shape) : shape_(shape) {
     lift(grid_);
     const Drainage water = route_water(grid_, sea_of(grid_, setting), shape.seed);
     broaden_valleys(grid_, water);
+    smooth(grid_, 1);
     water_level_msl_m_ = spread(dig_lakes(grid_, water), grid_.side);
     sink_coast(grid_, setting);
 }

@@ -68,22 +68,22 @@ double planet_msl_m(const glm::dvec3& place, std::uint64_t seed) {
                           fractal_noise(place * 2.1, seed + 200, 3, 0.5),
                           fractal_noise(place * 2.1, seed + 300, 3, 0.5)};
     const glm::dvec3 bent = place + 0.35 * warp;
-    const double land = fractal_noise(bent * 1.35, seed + 400, 9, 0.56) + 0.02;
+    const double land = fractal_noise(bent * 1.35, seed + 400, 8, 0.56) + 0.02;
     if (land < 0.0) return -4'500.0 * smooth_step(0.0, 0.22, -land) - 60.0 * std::min(1.0, -land / 0.01);
-    const double belts = smooth_step(0.12, 0.5, ridged_noise(bent * 1.9, seed + 500, 3, 0.5) - 0.25);
-    const double ridges = ridged_noise(bent * 16.0, seed + 600, 6, 0.55);
+    const double belts = smooth_step(0.12, 0.5, ridged_noise(bent * 1.9, seed + 500, 3, 0.5) - 0.25) *
+                         smooth_step(0.02, 0.16, land);
+    const double ridges = belts > 0.0 ? ridged_noise(bent * 16.0, seed + 600, 6, 0.55) : 0.0;
     const double plain =
-        900.0 * smooth_step(0.0, 0.5, land) + 120.0 * (1.0 + fractal_noise(bent * 40.0, seed + 700, 4, 0.5));
-    return plain * smooth_step(0.0, 0.03, land) +
-           5'200.0 * belts * ridges * ridges * smooth_step(0.02, 0.16, land);
+        900.0 * smooth_step(0.0, 0.5, land) + 120.0 * (1.0 + fractal_noise(bent * 40.0, seed + 700, 3, 0.5));
+    return plain * smooth_step(0.0, 0.03, land) + 5'200.0 * belts * ridges * ridges;
 }
 
 /// What the region's grid is too coarse for: gullies and crags, the higher the steeper the ground.
 double relief_m(const glm::dvec3& place, double slope, double grid_spacing_m, std::uint64_t seed) {
-    const double height_m = 0.42 * grid_spacing_m * smooth_step(0.08, 0.9, slope);
+    const double height_m = 0.5 * grid_spacing_m * smooth_step(0.08, 0.9, slope);
     if (height_m < 0.2) return 0.0;
-    const glm::dvec3 scaled = place * (kEquatorialRadiusM / (2.6 * grid_spacing_m));
-    return height_m * (ridged_noise(scaled, seed + 800, 4, 0.55) - 0.45);
+    const glm::dvec3 scaled = place * (kEquatorialRadiusM / (3.6 * grid_spacing_m));
+    return height_m * (ridged_noise(scaled, seed + 800, 5, 0.52) - 0.45);
 }
 
 }  // namespace
