@@ -23,7 +23,11 @@ constexpr int kSurroundings = 8;
 struct Void {
     std::vector<std::array<int, 2>> posts;  ///< column, row
     float deepest = 0.0F;                   ///< posts from the rim
-    bool enclosed = true;                   ///< does not reach the grid's edge
+    std::size_t at_rim = 0;                 ///< of its posts, those beside a height
+    std::size_t at_edge = 0;                ///< those on the grid's edge
+
+    /// Bounded by heights far more than by the grid's edge.
+    [[nodiscard]] bool enclosed() const { return at_edge * 2 <= at_rim; }
 };
 
 /// 8-connected areas of void posts.
@@ -38,7 +42,8 @@ std::vector<Void> find_voids(const HeightGrid& grid, std::span<const float> dist
         area.posts.push_back({column, row});
         area.deepest = std::max(area.deepest, distance[post]);
         const bool at_edge = column == 0 || row == 0 || column == grid.columns - 1 || row == grid.rows - 1;
-        area.enclosed = area.enclosed && !at_edge;
+        area.at_edge += at_edge ? 1 : 0;
+        area.at_rim += distance[post] < 1.5F ? 1 : 0;
     };
     for (int row = 0; row < grid.rows; ++row) {
         for (int column = 0; column < grid.columns; ++column) {
@@ -209,7 +214,7 @@ VoidFill fill_voids(HeightGrid& grid, const CoarserSurface& coarser) {
     if (std::find(known.begin(), known.end(), std::uint8_t{0}) == known.end()) return {};
     VoidFill result;
     for (const Void& area : find_voids(grid, distance_to_sites(known, grid.columns, grid.rows))) {
-        if (area.deepest > deepest_void_posts(grid.spacing_deg, area.enclosed)) {
+        if (area.deepest > deepest_void_posts(grid.spacing_deg, area.enclosed())) {
             result.outside += area.posts.size();
             continue;
         }
