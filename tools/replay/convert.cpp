@@ -24,6 +24,14 @@ net::CapturedDatagram datagram_of(const FlightSample& sample, double origin_s, s
     return datagram;
 }
 
+// About a day at 30 a second, and 2 GB of memory on the way.
+constexpr double kMostPackets = 3.0e6;
+
+double packets_of(const Track& track, const FlightSampling& sampling) {
+    const double duration_s = track.fixes.back().time_s - track.fixes.front().time_s;
+    return (std::min(duration_s, sampling.until_s) - sampling.from_s) * sampling.rate_hz;
+}
+
 // Offsets that bring a flight out of every protocol's range would make packets that nobody takes.
 bool within_reach(const std::vector<FlightSample>& samples) {
     return std::all_of(samples.begin(), samples.end(), [](const FlightSample& sample) {
@@ -37,6 +45,12 @@ bool within_reach(const std::vector<FlightSample>& samples) {
 tl::expected<ConvertReport, std::string> convert(const ConvertRequest& request) {
     const auto track = read_track(request.track, request.altitude);
     if (!track) return tl::unexpected(track.error());
+    if (const double packets = packets_of(*track, request.sampling); packets > kMostPackets) {
+        return tl::unexpected(
+            fmt::format("{}: {:.0f} packets are more than {:.0f}: choose a part with --from and "
+                        "--until, or a lower --rate",
+                        request.track.string(), packets, kMostPackets));
+    }
     const auto samples = sample_flight(*track, request.sampling);
     if (samples.empty()) {
         return tl::unexpected(fmt::format("{}: nothing lies between --from {} and --until {} seconds",

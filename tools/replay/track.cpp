@@ -33,6 +33,10 @@ tl::expected<Track, std::string> tidy(Track track) {
     }
     track.skipped += track.fixes.size() - kept.size();
     track.fixes = std::move(kept);
+    // What does not fit a packet's 32-bit time is no date of a flight.
+    constexpr std::int64_t kLatestUtc_s = 4'000'000'000;
+    if (track.start_utc_s && (*track.start_utc_s < 0 || *track.start_utc_s > kLatestUtc_s))
+        track.start_utc_s.reset();
     if (track.fixes.size() >= 2) return track;
     return tl::unexpected(fmt::format("it has {} usable fixes ({} skipped), at least two are needed",
                                       track.fixes.size(), track.skipped));

@@ -46,7 +46,8 @@ enum class IgcAltitude : std::uint8_t { Automatic, Gnss, Pressure };
                                                           IgcAltitude altitude);
 
 /// Keeps the fixes whose numbers are in range and whose time is later than that of the fix kept before;
-/// counts the rest in `skipped`. Refuses when fewer than two are left.
+/// counts the rest in `skipped`. A date before 1970 or after 2096 is forgotten. Refuses when fewer than two
+/// fixes are left.
 [[nodiscard]] tl::expected<Track, std::string> tidy(Track track);
 
 }  // namespace eyepoint::tools

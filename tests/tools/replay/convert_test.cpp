@@ -77,6 +77,11 @@ TEST(Convert, FaultsLeaveNothingAndSayWhatToDo) {
         convert({.track = scratch / "good.csv", .output = output, .sampling = {.altitude_offset_m = 2.0e6}});
     ASSERT_FALSE(too_high.has_value());
     EXPECT_NE(too_high.error().find("--altitude-offset"), std::string::npos);
+    std::ofstream(scratch / "long.csv")
+        << "time_s,latitude_deg,longitude_deg,altitude_m\n0,46,8,100\n1e15,46,8,100\n";
+    const auto too_long = convert({.track = scratch / "long.csv", .output = output});
+    ASSERT_FALSE(too_long.has_value());
+    EXPECT_NE(too_long.error().find("--until"), std::string::npos);
     EXPECT_FALSE(std::filesystem::exists(output));
     EXPECT_TRUE(convert({.track = scratch / "good.csv", .output = output}).has_value());
     EXPECT_TRUE(std::filesystem::exists(output));

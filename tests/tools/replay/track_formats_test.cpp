@@ -76,6 +76,19 @@ TEST(Gpx, ReadsTrackPointsOfAllSegments) {
     EXPECT_EQ(track->fixes[1].altitude_m, 1502.0);
 }
 
+TEST(Gpx, ADateThatNoFlightHasIsForgotten) {
+    for (const char* year : {"0001", "9999"}) {
+        const auto track =
+            parse_gpx(std::string("<gpx><trk><trkseg>"
+                                  "<trkpt lat='46' lon='8'><ele>1</ele><time>") +
+                      year + "-01-01T00:00:00Z</time></trkpt><trkpt lat='46' lon='8'><ele>1</ele><time>" +
+                      year + "-01-01T00:00:05Z</time></trkpt></trkseg></trk></gpx>");
+        ASSERT_TRUE(track.has_value()) << track.error();
+        EXPECT_FALSE(track->start_utc_s.has_value());
+        EXPECT_EQ(track->fixes[1].time_s, 5.0);
+    }
+}
+
 TEST(Gpx, WhatIsNotXmlIsRefused) {
     EXPECT_FALSE(parse_gpx("<gpx><trk>").has_value());
     EXPECT_FALSE(parse_gpx("not xml").has_value());
