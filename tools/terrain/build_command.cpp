@@ -221,7 +221,7 @@ void add_build_command(CLI::App& application) {
         "build", "Makes a terrain database from elevation and imagery files (docs/terrain-data.md).");
     command->footer(
         "A file takes its own settings as FILE@KEY=VALUE; keys: vertical, encoding, nodata, band, extent,\n"
-        "mercator-tile (elevation), extent (imagery). A folder stands for the rasters below it.\n"
+        "mercator-tile (elevation), extent, nodata (imagery). A folder stands for the rasters below it.\n"
         "Examples:\n"
         "  eyepoint-terrain build --dem N46E008.hgt.zip world.tif --imagery world.jpg -o alps\n"
         "  eyepoint-terrain build --dem fuji.png --encoding terrain-rgb --mercator-tile 10/906/404 -o fuji\n"

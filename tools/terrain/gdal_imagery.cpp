@@ -104,6 +104,12 @@ tl::expected<std::vector<std::uint8_t>, std::string> read_colours(GDALDataset& d
     return rgba;
 }
 
+void void_pixels_of(int value, std::span<std::uint8_t> rgba) {
+    for (std::size_t at = 0; at < rgba.size(); at += 4) {
+        if (rgba[at] == value && rgba[at + 1] == value && rgba[at + 2] == value) rgba[at + 3] = 0;
+    }
+}
+
 tl::expected<GridMapping, std::string> place(GDALDataset& dataset, const ImageryInput& input,
                                              FileFacts& facts) {
     if (input.extent) return GridMapping::spread(*input.extent, facts.columns, facts.rows);
@@ -138,6 +144,7 @@ tl::expected<ColourGrid, std::string> read_imagery(const ImageryInput& input, co
     }
     auto rgba = read_colours(**dataset, input.file, progress);
     if (!rgba) return tl::unexpected(rgba.error());
+    if (input.nodata) void_pixels_of(*input.nodata, *rgba);
     facts.spacing_deg = spacing_at_middle_deg(*mapping, facts.columns, facts.rows);
     return ColourGrid{facts.columns,       facts.rows,        std::move(*rgba),
                       std::move(*mapping), facts.spacing_deg, std::move(facts)};

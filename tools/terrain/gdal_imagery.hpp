@@ -18,6 +18,9 @@ inline constexpr std::uint64_t kMaxPixels = 400'000'000;
 struct ImageryInput {
     std::string file;
     std::optional<terrain::GeographicExtent> extent;  ///< over what the file says, edge to edge
+    /// Pixels whose red, green and blue all have this value are void: 0 for a black fill that the file does
+    /// not name.
+    std::optional<int> nodata;
 };
 
 /// Colours on the pixels of a raster, rows from the first line of the file.

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::array<std::string_view, 6> kElevationKeys{"vertical", "encoding", "nodata",
                                                          "band",     "extent",   "mercator-tile"};
-constexpr std::array<std::string_view, 1> kImageryKeys{"extent"};
+constexpr std::array<std::string_view, 2> kImageryKeys{"extent", "nodata"};
 
 struct Setting {
     std::string key;
@@ -95,6 +95,18 @@ tl::expected<void, std::string> apply(const Setting& setting, ElevationInput& in
         if (!tile) return tl::unexpected(fmt::format("{}: @mercator-tile: {}", input.file, tile.error()));
         input.placement = *tile;
     }
+    return {};
+}
+
+tl::expected<void, std::string> apply(const Setting& setting, ImageryInput& input) {
+    if (setting.key == "nodata") {
+        input.nodata = number<int>(setting.value);
+        if (input.nodata) return {};
+        return tl::unexpected(fmt::format("{}: @nodata={} is no whole number", input.file, setting.value));
+    }
+    const auto extent = parse_extent(setting.value);
+    if (!extent) return tl::unexpected(fmt::format("{}: @extent: {}", input.file, extent.error()));
+    input.extent = *extent;
     return {};
 }
 
@@ -195,11 +207,10 @@ tl::expected<std::vector<ImageryInput>, std::string> imagery_inputs(
         const auto files = files_of(argument.file, FolderContent::Imagery);
         if (!files) return tl::unexpected(files.error());
         for (const std::string& file : *files) {
-            ImageryInput input{file, std::nullopt};
+            ImageryInput input{file, std::nullopt, std::nullopt};
             for (const Setting& setting : argument.settings) {
-                const auto extent = parse_extent(setting.value);
-                if (!extent) return tl::unexpected(fmt::format("{}: @extent: {}", file, extent.error()));
-                input.extent = *extent;
+                if (const auto applied = apply(setting, input); !applied)
+                    return tl::unexpected(applied.error());
             }
             inputs.push_back(std::move(input));
         }

@@ -34,7 +34,7 @@ struct ElevationDefaults {
 [[nodiscard]] tl::expected<std::vector<ElevationInput>, std::string> elevation_inputs(
     const std::vector<std::string>& arguments, const ElevationDefaults& defaults);
 
-/// Likewise for imagery; the only key is extent.
+/// Likewise for imagery; keys: extent, nodata.
 [[nodiscard]] tl::expected<std::vector<ImageryInput>, std::string> imagery_inputs(
     const std::vector<std::string>& arguments);
 

@@ -51,7 +51,11 @@ float ridged_relief(double column, double row) {
     double wavelength = kLongestPosts;
     double amplitude = 1.0;
     for (int octave = 0; octave < kOctaves; ++octave) {
-        const double noise = gradient_noise(column / wavelength, row / wavelength, octave);
+        // Each octave's lattice is turned another way, or rows and columns would show.
+        const double turn = 0.4 + 0.65 * octave;
+        const double x = (column * std::cos(turn) - row * std::sin(turn)) / wavelength;
+        const double y = (column * std::sin(turn) + row * std::cos(turn)) / wavelength;
+        const double noise = gradient_noise(x, y, octave);
         // A rounded crest instead of |noise| keeps ridges from becoming knives at post spacing.
         relief += amplitude * (0.35 - std::sqrt(noise * noise + 0.003));
         wavelength *= 0.5;

@@ -57,7 +57,7 @@ TEST(Imagery, APlainTwoToOnePictureIsThePlanet) {
         [](int band, int column, int row) { return band == 0   ? column
                                                    : band == 1 ? row
                                                                : 7.0; });
-    auto grid = read_imagery({folder.path("world.png"), std::nullopt});
+    auto grid = read_imagery({folder.path("world.png"), std::nullopt, std::nullopt});
     ASSERT_TRUE(grid) << grid.error();
     EXPECT_THAT(grid->facts.notes.front(), HasSubstr("whole planet"));
     std::vector<ColourGrid> grids;
@@ -73,14 +73,15 @@ TEST(Imagery, APlainTwoToOnePictureIsThePlanet) {
 TEST(Imagery, OtherPicturesWithoutGeoreferenceAreRefused) {
     const TemporaryFolder folder;
     testing::write_raster(folder.path("photo.tif"), picture(30, 20, 3), [](int, int, int) { return 9.0; });
-    const auto grid = read_imagery({folder.path("photo.tif"), std::nullopt});
+    const auto grid = read_imagery({folder.path("photo.tif"), std::nullopt, std::nullopt});
     ASSERT_FALSE(grid);
     EXPECT_THAT(grid.error(), HasSubstr("has no georeference"));
-    EXPECT_TRUE(read_imagery({folder.path("photo.tif"), terrain::GeographicExtent{8, 46, 9, 47}}));
+    EXPECT_TRUE(
+        read_imagery({folder.path("photo.tif"), terrain::GeographicExtent{8, 46, 9, 47}, std::nullopt}));
     RasterFile heights = picture(30, 20, 1);
     heights.pixel = Pixel::Float32;
     testing::write_raster(folder.path("heights.tif"), heights, [](int, int, int) { return 9.0; });
-    EXPECT_THAT(read_imagery({folder.path("heights.tif"), std::nullopt}).error(),
+    EXPECT_THAT(read_imagery({folder.path("heights.tif"), std::nullopt, std::nullopt}).error(),
                 HasSubstr("no 8-bit picture"));
 }
 
@@ -91,10 +92,21 @@ TEST(Imagery, NodataPixelsAreTransparent) {
     testing::write_raster(folder.path("a.tif"), file, [](int band, int column, int) {
         return column < 4 ? 0.0 : band == 1 ? 0.0 : 200.0;
     });
-    const auto grid = read_imagery({folder.path("a.tif"), std::nullopt});
+    const auto grid = read_imagery({folder.path("a.tif"), std::nullopt, std::nullopt});
     ASSERT_TRUE(grid) << grid.error();
     EXPECT_EQ(grid->rgba[3], 0);
     EXPECT_EQ(grid->rgba[4 * 4 + 3], 255) << "one band at the nodata value does not void a pixel";
+}
+
+TEST(Imagery, AFillThatTheFileDoesNotNameCanBeNamed) {
+    const TemporaryFolder folder;
+    testing::write_raster(folder.path("a.tif"), picture(8, 4, 3), [](int band, int column, int) {
+        return column < 4 ? 0.0 : band == 1 ? 0.0 : 200.0;
+    });
+    const auto grid = read_imagery({folder.path("a.tif"), std::nullopt, 0});
+    ASSERT_TRUE(grid) << grid.error();
+    EXPECT_EQ(grid->rgba[3], 0);
+    EXPECT_EQ(grid->rgba[4 * 4 + 3], 255);
 }
 
 TEST(Imagery, CoarseTexelsAreAreaAverages) {
