@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::uint16_t kMagic = 0x8000;
 constexpr std::uint8_t kMajorVersion = 3;
+constexpr std::string_view kEntityControl = "Entity Control";
 // CIGI's Minor Version as its most used library writes it for 3.3 and 3.1.
 constexpr unsigned kMinorVersion33 = 3, kMinorVersion31 = 1;
 
@@ -62,14 +63,13 @@ std::optional<WireError> check_place(std::uint16_t id, std::span<const Named> pl
     const auto outside = [](const Named& number, double lowest, double highest) {
         return number.value < lowest || number.value > highest;
     };
-    constexpr std::string_view kPacket = "Entity Control";
-    if (outside(place[0], -90.0, 90.0)) return out_of_range(kPacket, id, place[0], -90.0, 90.0);
-    if (outside(place[1], -360.0, 360.0)) return out_of_range(kPacket, id, place[1], -360.0, 360.0);
+    if (outside(place[0], -90.0, 90.0)) return out_of_range(kEntityControl, id, place[0], -90.0, 90.0);
+    if (outside(place[1], -360.0, 360.0)) return out_of_range(kEntityControl, id, place[1], -360.0, 360.0);
     if (outside(place[2], kLowestAltitudeM, kHighestAltitudeM)) {
-        return out_of_range(kPacket, id, place[2], kLowestAltitudeM, kHighestAltitudeM);
+        return out_of_range(kEntityControl, id, place[2], kLowestAltitudeM, kHighestAltitudeM);
     }
     if (outside({"pitch", pitch}, -90.0, 90.0))
-        return out_of_range(kPacket, id, {"pitch", pitch}, -90.0, 90.0);
+        return out_of_range(kEntityControl, id, {"pitch", pitch}, -90.0, 90.0);
     return std::nullopt;
 }
 

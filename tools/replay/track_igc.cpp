@@ -106,7 +106,7 @@ void unroll_midnights(std::vector<Fix>& fixes) {
     for (std::size_t i = 1; i < fixes.size(); ++i) {
         double& time_s = fixes[i].fix.time_s;
         time_s += days_s;
-        if (time_s >= fixes[i - 1].fix.time_s - kSecondsPerDay / 2) continue;
+        if (time_s >= fixes[i - 1].fix.time_s - kSecondsPerDay / 2.0) continue;
         days_s += kSecondsPerDay;
         time_s += kSecondsPerDay;
     }
