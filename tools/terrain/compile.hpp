@@ -18,7 +18,7 @@ struct CompileRequest {
     const ElevationSource* elevation = nullptr;
     const ImagerySource* imagery = nullptr;  ///< may be null
     const terrain::Geoid* geoid = nullptr;
-    terrain::Manifest manifest;              ///< name, sources, voids; the compiler fills in the rest
+    terrain::Manifest manifest;  ///< name, sources, voids; the compiler fills in the rest
     std::filesystem::path output;
     double height_step_m = 1.0 / 16.0;
     /// Called from the compiling thread with tiles done and tiles to do; may be empty.
