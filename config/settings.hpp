@@ -14,7 +14,7 @@ struct TerrainSettings {
     std::string database;  ///< folder of the terrain database
     std::string geoid;     ///< EGM96 grid (GeographicLib PGM); empty: the one built with Eyepoint
     std::string lod_method = "regular";  ///< how blocks are chosen
-    double tau_px = 1.5;                 ///< tolerance in pixels, 0.1..100
+    double tau_px = 2.0;                 ///< tolerance in pixels, 0.1..100
     std::uint32_t loader_threads = 1;    ///< 1..16
     std::uint32_t cache_mib = 512;       ///< loaded blocks kept, 64..65536
 };
@@ -43,9 +43,9 @@ struct FrameSettings {
 };
 
 struct EnvironmentSettings {
-    double visibility_m = 60000.0;    ///< 100..1000000
+    double visibility_m = 100000.0;    ///< 100..1000000
     double sun_azimuth_deg = 150.0;   ///< 0..360 from true north
-    double sun_elevation_deg = 38.0;  ///< -90..90
+    double sun_elevation_deg = 32.0;  ///< -90..90
 };
 
 struct OutputSettings {

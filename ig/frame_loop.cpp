@@ -103,6 +103,7 @@ std::optional<Eyepoint> FrameLoop::newest_eye() const {
 void FrameLoop::begin_flight(const Eyepoint& first) {
     frame_buffer_.bind();
     parts_.scene.load_all(first.view);
+    parts_.scene.warm_up(first.view);
     parts_.scene.draw(first.view);
     (void)wait_for_gpu();
     frame_clock_.restart();

@@ -16,7 +16,7 @@ namespace eyepoint::ig {
 namespace {
 
 /// Finished blocks taken over in a frame: bounds the uploads that one frame can be asked for.
-constexpr std::size_t kBlocksPublishedPerFrame = 48;
+constexpr std::size_t kBlocksPublishedPerFrame = 128;
 
 double thread_cpu_ms() {
     timespec now{};
@@ -46,7 +46,7 @@ class TerrainScene final : public Scene {
         glNamedBufferStorage(uniforms_.name(), sizeof(FrameUniforms), nullptr, GL_DYNAMIC_STORAGE_BIT);
     }
 
-    void warm_up(const View& view) override { (void)draw(view); }
+    void warm_up(const View& view) override;
     FrameStatistics draw(const View& view) override;
     std::uint64_t load_all(const View& view) override;
     void set_options(const SceneOptions& options) override { options_ = options; }
@@ -54,6 +54,7 @@ class TerrainScene final : public Scene {
 
   private:
     [[nodiscard]] const terrain::Selection& select(const View& view);
+    void begin(const View& view);
 
     SceneOptions options_;
     std::unique_ptr<terrain::Pager> pager_;
@@ -72,12 +73,8 @@ const terrain::Selection& TerrainScene::select(const View& view) {
     return selection;
 }
 
-FrameStatistics TerrainScene::draw(const View& view) {
-    (void)pager_->publish(kBlocksPublishedPerFrame, frame_);
-    const double start_ms = thread_cpu_ms();
-    const terrain::Selection& selection = select(view);
-    const double selection_ms = thread_cpu_ms() - start_ms;
-
+/// Uniforms, viewport, an empty picture: magenta, infinitely far (reverse Z: depth 0).
+void TerrainScene::begin(const View& view) {
     const FrameUniforms uniforms = frame_uniforms(view, options_);
     glNamedBufferSubData(uniforms_.name(), 0, sizeof(uniforms), &uniforms);
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, uniforms_.name());
@@ -86,7 +83,21 @@ FrameStatistics TerrainScene::draw(const View& view) {
     glClearColor(1.0F, 0.0F, 1.0F, 1.0F);
     glClearDepth(0.0);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
 
+void TerrainScene::warm_up(const View& view) {
+    begin(view);
+    terrain_.warm_up(select(view), frame_);
+    sky_.draw();
+}
+
+FrameStatistics TerrainScene::draw(const View& view) {
+    (void)pager_->publish(kBlocksPublishedPerFrame, frame_);
+    const double start_ms = thread_cpu_ms();
+    const terrain::Selection& selection = select(view);
+    const double selection_ms = thread_cpu_ms() - start_ms;
+
+    begin(view);
     FrameStatistics statistics = terrain_.draw(selection, frame_);
     if (!options_.sentinel) sky_.draw();
     statistics.selection_cpu_ms = selection_ms;

@@ -21,10 +21,10 @@ namespace eyepoint::ig {
 
 struct SceneOptions {
     std::string lod_method = "regular";  ///< see terrain::lod_method_names()
-    double tau_px = 1.5;                 ///< tolerance, pixels
-    double visibility_m = 60000.0;       ///< meteorological: contrast 2% at this distance, at sea level
+    double tau_px = 2.0;                 ///< tolerance, pixels
+    double visibility_m = 100000.0;       ///< meteorological: contrast 2% at this distance, at sea level
     double sun_azimuth_deg = 150.0;      ///< from true north, at the eye
-    double sun_elevation_deg = 38.0;     ///< above the horizon, at the eye
+    double sun_elevation_deg = 32.0;     ///< above the horizon, at the eye
     unsigned loader_threads = 1;
     std::uint64_t block_cache_bytes = 512ULL << 20;
     bool sentinel = false;  ///< test aid: no sky, the clear colour stays where no terrain is drawn

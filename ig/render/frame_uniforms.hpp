@@ -18,7 +18,9 @@ struct FrameUniforms {
     glm::vec4 eye_low{0.0F};
     glm::vec4 eye_up{0.0F};
     glm::vec4 sun_direction{0.0F};
-    glm::vec4 mie{0.0F};
+    glm::vec4 sunlight{0.0F};
+    glm::vec4 skylight{0.0F};
+    glm::vec4 air_at_eye{0.0F};
     glm::vec4 ray_corner{0.0F};
     glm::vec4 ray_right{0.0F};
     glm::vec4 ray_up{0.0F};

@@ -57,15 +57,15 @@ GlTexture make_noise_texture() {
     texels.reserve(kTexels * kTexels);
     for (int i = 0; i < kTexels * kTexels; ++i) {
         const int row = i / kTexels, column = i % kTexels;
-        const double patches = 0.5 + 1.6 * (fractal(row, column, 4, 6, 17U) - 0.5);
-        const double grain = 0.5 + 1.8 * (fractal(row, column, 32, 3, 71U) - 0.5);
+        const double patches = 0.5 + 1.6 * (fractal(row, column, 4, 7, 17U) - 0.5);
+        const double grain = 0.5 + 1.8 * (fractal(row, column, 32, 4, 71U) - 0.5);
         texels.push_back({to_byte(patches), to_byte(grain)});
     }
     GlTexture texture{GLenum{GL_TEXTURE_2D}};
     glTextureStorage2D(texture.name(), kMipLevels, GL_RG8, kTexels, kTexels);
     glTextureSubImage2D(texture.name(), 0, 0, 0, kTexels, kTexels, GL_RG, GL_UNSIGNED_BYTE, texels.data());
     glGenerateTextureMipmap(texture.name());
-    glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
     glTextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     return texture;
 }

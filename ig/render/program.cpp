@@ -24,8 +24,11 @@ std::string program_log(GLuint program) {
     return {text.data(), static_cast<std::size_t>(length)};
 }
 
-tl::expected<GlShader, std::string> compile(GLenum stage, std::span<const std::string_view> files) {
-    std::vector<const char*> texts{"#version 450 core\n"};
+tl::expected<GlShader, std::string> compile(GLenum stage, const std::vector<std::string_view>& files,
+                                            const std::vector<std::string_view>& defines) {
+    std::string head = "#version 450 core\n";
+    for (const std::string_view name : defines) head += fmt::format("#define {}\n", name);
+    std::vector<const char*> texts{head.c_str()};
     std::vector<GLint> lengths{-1};
     for (const std::string_view file : files) {
         const std::string_view text = shader_text(file);
@@ -46,11 +49,10 @@ tl::expected<GlShader, std::string> compile(GLenum stage, std::span<const std::s
 
 }  // namespace
 
-tl::expected<GlProgram, std::string> link_program(std::span<const std::string_view> vertex_files,
-                                                  std::span<const std::string_view> fragment_files) {
-    auto vertex = compile(GL_VERTEX_SHADER, vertex_files);
+tl::expected<GlProgram, std::string> link_program(const ProgramSource& source) {
+    auto vertex = compile(GL_VERTEX_SHADER, source.vertex_files, source.defines);
     if (!vertex) return tl::unexpected(vertex.error());
-    auto fragment = compile(GL_FRAGMENT_SHADER, fragment_files);
+    auto fragment = compile(GL_FRAGMENT_SHADER, source.fragment_files, source.defines);
     if (!fragment) return tl::unexpected(fragment.error());
     GlProgram program;
     glAttachShader(program.name(), vertex->name());
@@ -59,8 +61,9 @@ tl::expected<GlProgram, std::string> link_program(std::span<const std::string_vi
     GLint linked = GL_FALSE;
     glGetProgramiv(program.name(), GL_LINK_STATUS, &linked);
     if (linked == GL_FALSE) {
-        return tl::unexpected(fmt::format("shaders {} and {} do not link: {}", fmt::join(vertex_files, " + "),
-                                          fmt::join(fragment_files, " + "), program_log(program.name())));
+        return tl::unexpected(
+            fmt::format("shaders {} and {} do not link: {}", fmt::join(source.vertex_files, " + "),
+                        fmt::join(source.fragment_files, " + "), program_log(program.name())));
     }
     return program;
 }

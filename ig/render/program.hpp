@@ -1,9 +1,9 @@
 /// Shader programs from the GLSL files beside this one, which are compiled into the program's binary.
 #pragma once
 
-#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <tl/expected.hpp>
 
@@ -14,9 +14,15 @@ namespace eyepoint::ig {
 /// Text of ig/render/shaders/NAME; empty for an unknown name.
 [[nodiscard]] std::string_view shader_text(std::string_view name);
 
-/// A linked program. Each stage is the given files one after the other, behind `#version 450 core`.
-/// On failure: the driver's message with the names of the files.
-[[nodiscard]] tl::expected<GlProgram, std::string> link_program(
-    std::span<const std::string_view> vertex_files, std::span<const std::string_view> fragment_files);
+/// What a program is made of. Each stage is the files one after the other, behind `#version 450 core` and a
+/// #define for each name.
+struct ProgramSource {
+    std::vector<std::string_view> vertex_files;
+    std::vector<std::string_view> fragment_files;
+    std::vector<std::string_view> defines;
+};
+
+/// A linked program. On failure: the driver's message with the names of the files.
+[[nodiscard]] tl::expected<GlProgram, std::string> link_program(const ProgramSource& source);
 
 }  // namespace eyepoint::ig

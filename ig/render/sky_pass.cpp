@@ -1,16 +1,13 @@
 #include "ig/render/sky_pass.hpp"
 
-#include <array>
-#include <string_view>
-
 #include "ig/render/program.hpp"
 
 namespace eyepoint::ig {
 
 tl::expected<SkyPass, std::string> SkyPass::create() {
-    constexpr std::array<std::string_view, 2> kVertex{"frame.glsl", "sky.vert.glsl"};
-    constexpr std::array<std::string_view, 3> kFragment{"frame.glsl", "atmosphere.glsl", "sky.frag.glsl"};
-    auto program = link_program(kVertex, kFragment);
+    auto program = link_program({{"frame.glsl", "sky.vert.glsl"},
+                                 {"frame.glsl", "chapman.glsl", "atmosphere.glsl", "sky.frag.glsl"},
+                                 {}});
     if (!program) return tl::unexpected(program.error());
     return SkyPass{std::move(*program)};
 }

@@ -1,9 +1,7 @@
 #include "ig/render/terrain_pass.hpp"
 
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <string_view>
 
 #include "ig/render/noise_texture.hpp"
 #include "ig/render/program.hpp"
@@ -14,9 +12,9 @@ namespace {
 
 constexpr std::uint32_t kFirstSlots = 1024;
 constexpr std::uint32_t kImageLayers = 512;
-/// The noise repeats every side of a tile of this depth (0.044 degrees, about 5 km), the same over the whole
+/// The noise repeats every side of a tile of this depth (0.18 degrees, about 20 km), the same over the whole
 /// Earth.
-constexpr int kNoiseDepth = 12;
+constexpr int kNoiseDepth = 10;
 constexpr double kMetresPerDegree = 111320.0;
 
 double fraction(double value) { return value - std::floor(value); }
@@ -31,15 +29,22 @@ const terrain::TileNode* nearest_with_image(const terrain::TileNode& node) {
 }  // namespace
 
 tl::expected<TerrainPass, std::string> TerrainPass::create(std::span<const std::uint16_t> indices) {
-    constexpr std::array<std::string_view, 2> kVertex{"frame.glsl", "terrain.vert.glsl"};
-    constexpr std::array<std::string_view, 3> kFragment{"frame.glsl", "atmosphere.glsl", "terrain.frag.glsl"};
-    auto program = link_program(kVertex, kFragment);
-    if (!program) return tl::unexpected(program.error());
-    return TerrainPass{std::move(*program), indices};
+    std::vector<Variant> variants;
+    for (std::size_t features = 0; features < kVariants; ++features) {
+        ProgramSource source{{"frame.glsl", "terrain.vert.glsl"},
+                             {"frame.glsl", "chapman.glsl", "atmosphere.glsl", "terrain.frag.glsl"},
+                             {}};
+        if ((features & kWater) != 0) source.defines.emplace_back("WATER");
+        if ((features & kImage) != 0) source.defines.emplace_back("IMAGES");
+        auto program = link_program(source);
+        if (!program) return tl::unexpected(program.error());
+        variants.push_back({std::move(*program), {}, {}, {}});
+    }
+    return TerrainPass{std::move(variants), indices};
 }
 
-TerrainPass::TerrainPass(GlProgram program, std::span<const std::uint16_t> indices)
-    : program_(std::move(program)),
+TerrainPass::TerrainPass(std::vector<Variant> variants, std::span<const std::uint16_t> indices)
+    : variants_(std::move(variants)),
       noise_(make_noise_texture()),
       blocks_(kFirstSlots),
       images_(kImageLayers) {
@@ -80,25 +85,27 @@ TerrainPass::BlockRecord TerrainPass::describe(const terrain::TileNode& node, st
 }
 
 void TerrainPass::upload(const terrain::Selection& selection, std::uint64_t frame) {
-    counts_.clear();
-    offsets_.clear();
-    base_vertices_.clear();
+    for (Variant& variant : variants_) {
+        variant.counts.clear();
+        variant.offsets.clear();
+        variant.base_vertices.clear();
+    }
     for (const terrain::BlockDraw& draw : selection.draws) {
-        const std::uint32_t slot = blocks_.slot_of(*draw.node->block, frame);
+        const terrain::Block& block = *draw.node->block;
+        const std::uint32_t slot = blocks_.slot_of(block, frame);
         records_.resize(blocks_.slots());
         records_[slot] = describe(*draw.node, frame);
-        counts_.push_back(static_cast<GLsizei>(draw.indices.count));
-        offsets_.push_back(reinterpret_cast<const void*>(draw.indices.first * sizeof(std::uint16_t)));
-        base_vertices_.push_back(static_cast<GLint>(slot * terrain::kBlockVertices));
+        Variant& variant =
+            variants_[(block.has_water ? kWater : 0) + (records_[slot].image.x >= 0.0F ? kImage : 0)];
+        variant.counts.push_back(static_cast<GLsizei>(draw.indices.count));
+        variant.offsets.push_back(reinterpret_cast<const void*>(draw.indices.first * sizeof(std::uint16_t)));
+        variant.base_vertices.push_back(static_cast<GLint>(slot * terrain::kBlockVertices));
     }
     glNamedBufferData(record_buffer_.name(), static_cast<GLsizeiptr>(records_.size() * sizeof(BlockRecord)),
                       records_.data(), GL_STREAM_DRAW);
 }
 
-FrameStatistics TerrainPass::draw(const terrain::Selection& selection, std::uint64_t frame) {
-    const std::uint64_t blocks_before = blocks_.uploads(), images_before = images_.uploads();
-    upload(selection, frame);
-    glUseProgram(program_.name());
+void TerrainPass::bind() const {
     glBindVertexArray(layout_.name());
     glVertexArrayVertexBuffer(layout_.name(), 0, blocks_.vertex_buffer(), 0, sizeof(terrain::BlockVertex));
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, record_buffer_.name());
@@ -107,13 +114,33 @@ FrameStatistics TerrainPass::draw(const terrain::Selection& selection, std::uint
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GREATER);
     glEnable(GL_CULL_FACE);
-    glMultiDrawElementsBaseVertex(GL_TRIANGLES, counts_.data(), GL_UNSIGNED_SHORT, offsets_.data(),
-                                  static_cast<GLsizei>(counts_.size()), base_vertices_.data());
-    glDisable(GL_CULL_FACE);
+}
 
+void TerrainPass::warm_up(const terrain::Selection& selection, std::uint64_t frame) {
+    upload(selection, frame);
+    bind();
+    for (const Variant& variant : variants_) {
+        glUseProgram(variant.program.name());
+        glDrawElements(GL_TRIANGLES, 3, GL_UNSIGNED_SHORT, nullptr);
+    }
+    glDisable(GL_CULL_FACE);
+}
+
+FrameStatistics TerrainPass::draw(const terrain::Selection& selection, std::uint64_t frame) {
+    const std::uint64_t blocks_before = blocks_.uploads(), images_before = images_.uploads();
+    upload(selection, frame);
+    bind();
     FrameStatistics statistics;
+    for (const Variant& variant : variants_) {
+        if (variant.counts.empty()) continue;
+        glUseProgram(variant.program.name());
+        glMultiDrawElementsBaseVertex(GL_TRIANGLES, variant.counts.data(), GL_UNSIGNED_SHORT,
+                                      variant.offsets.data(), static_cast<GLsizei>(variant.counts.size()),
+                                      variant.base_vertices.data());
+        statistics.draws += static_cast<std::uint32_t>(variant.counts.size());
+    }
+    glDisable(GL_CULL_FACE);
     statistics.triangles = selection.triangles;
-    statistics.draws = static_cast<std::uint32_t>(counts_.size());
     statistics.blocks_drawn = static_cast<std::uint32_t>(selection.draws.size());
     statistics.blocks_tested = selection.blocks_tested;
     statistics.blocks_uploaded = static_cast<std::uint32_t>(blocks_.uploads() - blocks_before);

@@ -23,6 +23,10 @@ class TerrainPass {
     [[nodiscard]] static tl::expected<TerrainPass, std::string> create(
         std::span<const std::uint16_t> indices);
 
+    /// Draws one triangle of a selection's first block with every shader, so that no later frame pays for a
+    /// first use.
+    void warm_up(const terrain::Selection& selection, std::uint64_t frame);
+
     /// Needs the frame's uniforms bound. Uploads what is not on the card yet, then draws all blocks at once.
     /// Fills in triangles, draws, blocks and uploads of the statistics it returns.
     [[nodiscard]] FrameStatistics draw(const terrain::Selection& selection, std::uint64_t frame);
@@ -34,11 +38,24 @@ class TerrainPass {
         glm::vec4 noise;
     };
 
-    TerrainPass(GlProgram program, std::span<const std::uint16_t> indices);
+    /// Blocks with water and blocks with pictures have shaders of their own, so that the others do not pay
+    /// for them.
+    static constexpr std::size_t kWater = 1;
+    static constexpr std::size_t kImage = 2;
+    static constexpr std::size_t kVariants = 4;
+    struct Variant {
+        GlProgram program;
+        std::vector<GLsizei> counts;
+        std::vector<const void*> offsets;
+        std::vector<GLint> base_vertices;
+    };
+
+    TerrainPass(std::vector<Variant> variants, std::span<const std::uint16_t> indices);
     [[nodiscard]] BlockRecord describe(const terrain::TileNode& node, std::uint64_t frame);
     void upload(const terrain::Selection& selection, std::uint64_t frame);
+    void bind() const;
 
-    GlProgram program_;
+    std::vector<Variant> variants_;  ///< by the sum of their features
     GlVertexArray layout_;
     GlBuffer indices_;
     GlBuffer record_buffer_;
@@ -46,9 +63,6 @@ class TerrainPass {
     BlockStore blocks_;
     ImageStore images_;
     std::vector<BlockRecord> records_;  ///< by slot
-    std::vector<GLsizei> counts_;
-    std::vector<const void*> offsets_;
-    std::vector<GLint> base_vertices_;
 };
 
 }  // namespace eyepoint::ig

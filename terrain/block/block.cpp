@@ -77,7 +77,9 @@ std::shared_ptr<const Block> unfold(BlockData data, std::optional<ImageData> ima
         for (int column = 0; column < kBlockPosts; ++column)
             block->vertices.push_back(make_vertex(data, row, column));
     }
-    block->data = std::move(data);
+    block->has_water =
+        std::any_of(data.water.begin(), data.water.end(), [](std::uint8_t flag) { return flag != 0; });
+    block->data = data;
     block->image = std::move(image);
     return block;
 }

@@ -42,6 +42,7 @@ struct Block {
     BlockData data;
     std::vector<BlockVertex> vertices;
     std::optional<ImageData> image;  ///< the tile's own picture, if it has one
+    bool has_water = false;          ///< any post is water
     /// Memory it holds, bytes.
     [[nodiscard]] std::size_t bytes() const;
 };

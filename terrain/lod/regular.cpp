@@ -138,21 +138,11 @@ void RegularLod::visit(Frame& frame, TileNode& node) {
 
 /// Replaces a leaf by its children, after its coarser neighbours; false when blocks are missing for that.
 bool RegularLod::split(Frame& frame, TileNode& node) {
-    const auto children = frame.tree.children(node);
-    if (children.empty()) return false;
-    bool loaded = true;
-    for (TileNode& child : children) {
-        child.used_frame = frame.number;
-        if (child.block) continue;
-        loaded = false;
-        if (child.unreadable || child.wished_frame == frame.number) continue;
-        child.wished_frame = frame.number;
-        selection_.wishes.push_back({&child, frame.error_px(node, 0)});
-    }
-    if (!loaded) return false;
+    if (!have_children(frame, node, frame.error_px(node, 0))) return false;
     for (const Edge edge : kEdges) {
         const auto beside = neighbour(node.tile, edge);
         if (!beside) continue;
+        keep_ready(frame, *beside, frame.error_px(node, 0));
         for (TileNode* cover = &frame.covering(*beside);
              cover->mark.visible && cover->tile.depth < node.tile.depth && !cover->mark.split;
              cover = &frame.covering(*beside)) {
@@ -160,8 +150,33 @@ bool RegularLod::split(Frame& frame, TileNode& node) {
         }
     }
     node.mark.split = true;
-    for (TileNode& child : children) visit(frame, child);
+    for (TileNode& child : *node.children) visit(frame, child);
     return true;
+}
+
+/// Whether the four children can be drawn; wishes for those that are not loaded.
+bool RegularLod::have_children(const Frame& frame, TileNode& node, double priority) {
+    const auto children = frame.tree.children(node);
+    bool loaded = !children.empty();
+    for (TileNode& child : children) {
+        child.used_frame = frame.number;
+        if (child.block) continue;
+        loaded = false;
+        if (child.unreadable || child.wished_frame == frame.number) continue;
+        child.wished_frame = frame.number;
+        selection_.wishes.push_back({&child, priority});
+    }
+    return loaded;
+}
+
+/// Sees that a tile's blocks are loaded down to its own depth, one depth a frame. The neighbours of what is
+/// split are kept ready though they are out of view: when the eye turns, a coarse neighbour that cannot be
+/// split at once would hold back, tile by tile, everything finer beside it.
+void RegularLod::keep_ready(const Frame& frame, TileId tile, double priority) {
+    TileNode* node = &frame.tree.roots()[ancestor(tile, 0).x];
+    while (node->tile.depth < tile.depth && have_children(frame, *node, priority)) {
+        node = &(*node->children)[static_cast<std::size_t>(quadrant(ancestor(tile, node->tile.depth + 1)))];
+    }
 }
 
 void RegularLod::choose_levels(Frame& frame) {

@@ -33,6 +33,8 @@ class RegularLod final : public LodMethod {
     void cut(Frame& frame);
     void visit(Frame& frame, TileNode& node);
     [[nodiscard]] bool split(Frame& frame, TileNode& node);
+    [[nodiscard]] bool have_children(const Frame& frame, TileNode& node, double priority);
+    void keep_ready(const Frame& frame, TileId tile, double priority);
     void choose_levels(Frame& frame);
     void balance(Frame& frame);
     void emit(Frame& frame);

@@ -1,74 +1,54 @@
 // Light in the air: one scattering of sunlight by molecules (Rayleigh) and haze (Mie), each with a density that falls
-// exponentially with height, over a spherical Earth. Path lengths are "metres at sea-level density".
+// exponentially with height, over a spherical Earth. Path lengths are "metres at sea-level density": x air, y haze.
 
 const float kEarthRadius = 6371000.0;
 const vec3 kRayleigh = vec3(5.8e-6, 13.5e-6, 33.1e-6);  // 1/m at 680, 550, 440 nm, sea level
-const float kRayleighHeight = 8000.0;
-const float kMieHeight = 1200.0;
+const vec2 kScaleHeight = vec2(8000.0, 1200.0);
 const float kHazeAlbedo = 0.92;
-const float kSeveralScatterings = 2.3;  // how much brighter than single scattering a clear sky is, roughly
-const vec3 kSunlight = vec3(1.0, 0.97, 0.92) * 3.14159265;
-
-// Length, in scale heights, of the way out of an exponential atmosphere: radius and height of the eye in scale heights,
-// cosine of the zenith angle. After Schueler, "An Approximation to the Chapman Grazing-Incidence Function for
-// Atmospheric Scattering", GPU Pro 3 (2012).
-float chapman(float radius, float height, float cosine) {
-    float c = sqrt(1.5707963 * (radius + height));
-    float outward = c / ((c - 1.0) * abs(cosine) + 1.0) * exp(-height);
-    if (cosine >= 0.0) return outward;
-    float nearest = sqrt(max(1.0 - cosine * cosine, 0.0)) * (radius + height);
-    return 2.0 * sqrt(1.5707963 * nearest) * exp(max(radius - nearest, -60.0)) - outward;
-}
+const float kSeveralScatterings = 2.2;  // how much brighter than single scattering a clear sky is, roughly
 
 vec2 path_to_space(float height, float cosine) {
-    return vec2(kRayleighHeight * chapman(kEarthRadius / kRayleighHeight, height / kRayleighHeight, cosine),
-                kMieHeight * chapman(kEarthRadius / kMieHeight, height / kMieHeight, cosine));
+    return vec2(kScaleHeight.x * chapman(kEarthRadius / kScaleHeight.x, height / kScaleHeight.x, cosine),
+                kScaleHeight.y * chapman(kEarthRadius / kScaleHeight.y, height / kScaleHeight.y, cosine));
 }
 
-// Along a straight way between two heights.
-vec2 path_between(float from_height, float to_height, float metres) {
-    float rise = to_height - from_height;
-    if (abs(rise) < 1.0) return metres * exp(-vec2(from_height) / vec2(kRayleighHeight, kMieHeight));
-    vec2 scale = vec2(kRayleighHeight, kMieHeight);
-    return metres * scale / rise * (exp(-vec2(from_height) / scale) - exp(-vec2(to_height) / scale));
+// From the eye along a straight way to a place of another height.
+vec2 path_from_eye(float height, float metres) {
+    float rise = height - eye_up.w;
+    if (abs(rise) < 1.0) return metres * air_at_eye.xy;
+    return metres * kScaleHeight / rise * (air_at_eye.xy - exp(-vec2(height) / kScaleHeight));
 }
 
-vec3 optical_depth(vec2 path) { return kRayleigh * path.x + vec3(mie.x) * path.y; }
+// What is left of light from behind a path (transmittance), and what is scattered into it towards the eye.
+struct Air {
+    vec3 clear;
+    vec3 glow;
+};
 
-vec3 sunlight_at_eye() {
-    float cosine = dot(eye_up.xyz, sun_direction.xyz);
-    vec2 path = path_to_space(max(eye_up.w, 0.0), max(cosine, -0.05));
-    // Haze scatters mostly forward: little of it is lost.
-    return kSunlight * exp(-kRayleigh * path.x - vec3(0.25 * mie.x) * path.y) * smoothstep(-0.10, 0.02, cosine);
-}
-
-// Light scattered towards the eye from a direction along a path.
-vec3 scattered(vec3 direction, vec2 path) {
+Air air_along(vec3 direction, vec2 path) {
     float mu = dot(direction, sun_direction.xyz);
     float rayleigh_phase = 0.75 * (1.0 + mu * mu);
-    float g = 0.76;
-    float forward = (1.0 - g * g) / pow(1.0 + g * g - 2.0 * g * mu, 1.5);
-    float mie_phase = mix(1.0, forward, 0.45);
-    vec3 depth = optical_depth(path);
-    vec3 source = kRayleigh * path.x * rayleigh_phase + vec3(mie.x * kHazeAlbedo) * path.y * mie_phase;
-    return sunlight_at_eye() * source / max(depth, vec3(1e-9)) * (1.0 - exp(-depth)) *
-           (kSeveralScatterings / (4.0 * 3.14159265));
+    const float g = 0.76;  // Henyey-Greenstein
+    float spread = 1.0 + g * g - 2.0 * g * mu;
+    float mie_phase = mix(1.0, (1.0 - g * g) / (spread * sqrt(spread)), 0.45);
+    vec3 by_air = kRayleigh * path.x;
+    float by_haze = sunlight.w * path.y;
+    vec3 depth = by_air + by_haze;
+    vec3 clear = exp(-depth);
+    vec3 source = by_air * rayleigh_phase + by_haze * kHazeAlbedo * mie_phase;
+    vec3 glow = skylight.rgb * source / max(depth, vec3(1e-9)) * (1.0 - clear) * (kSeveralScatterings / 12.566371);
+    return Air(clear, glow);
 }
 
 vec3 sky_radiance(vec3 direction) {
-    float height = max(eye_up.w, 0.0);
-    float ratio = kEarthRadius / (kEarthRadius + height);
+    float ratio = kEarthRadius / (kEarthRadius + eye_up.w);
     float horizon = -sqrt(max(1.0 - ratio * ratio, 0.0));
-    return scattered(direction, path_to_space(height, max(dot(direction, eye_up.xyz), horizon)));
-}
-
-vec3 through_air(vec3 surface, vec3 direction, vec2 path) {
-    return surface * exp(-optical_depth(path)) + scattered(direction, path);
+    return air_along(direction, path_to_space(eye_up.w, max(dot(direction, eye_up.xyz), horizon))).glow;
 }
 
 // To display values: a film-like shoulder, then the display's gamma; half a step of dither against banding.
 vec4 displayed(vec3 radiance) {
-    vec3 toned = 1.0 - exp(-2.6 * radiance);
+    vec3 toned = 1.0 - exp(-3.0 * radiance);
     float dither = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715)))) - 0.5;
     return vec4(pow(toned, vec3(1.0 / 2.2)) + dither / 255.0, 1.0);
 }

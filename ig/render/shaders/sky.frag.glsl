@@ -7,6 +7,6 @@ void main() {
     vec3 direction = normalize(ray);
     vec3 radiance = sky_radiance(direction);
     float to_sun = dot(direction, sun_direction.xyz);
-    radiance += sunlight_at_eye() * 8.0 * smoothstep(kSunCosine - 4e-6, kSunCosine + 4e-6, to_sun);
+    radiance += sunlight.rgb * 8.0 * smoothstep(kSunCosine - 4e-6, kSunCosine + 4e-6, to_sun);
     colour = displayed(radiance);
 }
