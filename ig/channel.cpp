@@ -13,6 +13,7 @@
 #include "ig/process_usage.hpp"
 #include "terrain/database/database.hpp"
 #include "terrain/geodesy/geoid.hpp"
+#include "terrain/surface/surface_height.hpp"
 
 namespace eyepoint::ig {
 
@@ -169,6 +170,7 @@ Expected<std::string> run_channel(const config::Settings& settings, const Channe
                                     settings.terrain.database, gl.renderer, gl.version));
 
     SystemClock clock;
+    terrain::SurfaceHeight surface(*database);
     FrameLoop loop(settings,
                    {.scene = **scene,
                     .host = *host,
@@ -176,6 +178,7 @@ Expected<std::string> run_channel(const config::Settings& settings, const Channe
                     .record = *record ? &**record : nullptr,
                     .clock = clock,
                     .geoid = *geoid ? &**geoid : nullptr,
+                    .surface = &surface,
                     .stop_requested = surroundings.stop_requested,
                     .warn = surroundings.warn},
                    *std::move(frame_buffer));

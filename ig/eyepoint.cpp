@@ -20,6 +20,12 @@ terrain::Attitude attitude_of(const net::AttitudeDeg& attitude) {
 glm::dmat3 view_axes(const glm::dmat3& body) { return {body[1], -body[2], -body[0]}; }
 
 terrain::Geodetic place_of(const net::EntityState& entity, const EyepointReading& reading) {
+    if (entity.above_ground && reading.surface != nullptr) {
+        if (const auto ground = reading.surface->at(entity.latitude_deg, entity.longitude_deg)) {
+            return {entity.latitude_deg, entity.longitude_deg,
+                    terrain::EllipsoidalHeight{ground->metres() + entity.altitude_m}};
+        }
+    }
     const bool is_msl = reading.altitude_datum == config::VerticalDatum::Msl;
     const terrain::EllipsoidalHeight height =
         is_msl ? reading.geoid->to_ellipsoidal(entity.latitude_deg, entity.longitude_deg,

@@ -9,6 +9,7 @@
 #include "net/host_state.hpp"
 #include "terrain/geodesy/geoid.hpp"
 #include "terrain/geodesy/position.hpp"
+#include "terrain/surface/surface_height.hpp"
 
 namespace eyepoint::ig {
 
@@ -27,6 +28,9 @@ struct EyepointReading {
     config::ViewSettings view;
     config::VerticalDatum altitude_datum = config::VerticalDatum::Msl;
     const terrain::Geoid* geoid = nullptr;  ///< not owned; needed where the datum is MSL
+    /// Not owned; for entities that the host clamps to the ground. Without it, or where it cannot be read,
+    /// their altitude is taken as it is.
+    terrain::SurfaceHeight* surface = nullptr;
 };
 
 /// The eye that the host's newest state asks for, or nothing while it has not placed the vehicle.
@@ -36,7 +40,7 @@ struct EyepointReading {
 /// the eye at the entity's reference point plus the host's offset and the channel's own, both along the
 /// entity's body axes. What the host has not said of the view volume comes from the settings' vertical field
 /// of view and the picture's shape. All in double precision: the axes' error is under 1e-15, the eye's under
-/// 10 nm beside the geoid's. Thread use: pure.
+/// 10 nm beside the geoid's. Thread use: as that of the reading's surface.
 [[nodiscard]] std::optional<Eyepoint> eyepoint_of(const net::HostState& state, const EyepointReading& reading,
                                                   PictureSize size);
 

@@ -28,7 +28,7 @@ struct FrameLoop::FrameStart {
 
 FrameLoop::FrameLoop(const config::Settings& settings, Parts parts, FrameBuffer frame_buffer)
     : settings_(settings),
-      reading_{settings.view, settings.host.altitude_datum, parts.geoid},
+      reading_{settings.view, settings.host.altitude_datum, parts.geoid, parts.surface},
       parts_(std::move(parts)),
       frame_buffer_(std::move(frame_buffer)),
       frame_clock_(parts_.clock, settings.frame.rate_hz),
@@ -103,7 +103,6 @@ std::optional<Eyepoint> FrameLoop::newest_eye() const {
 void FrameLoop::begin_flight(const Eyepoint& first) {
     frame_buffer_.bind();
     parts_.scene.load_all(first.view);
-    parts_.scene.warm_up(first.view);
     parts_.scene.draw(first.view);
     (void)wait_for_gpu();
     frame_clock_.restart();
@@ -138,6 +137,8 @@ tl::expected<FrameEntry, std::string> FrameLoop::draw(const Eyepoint& eyepoint, 
     frame_buffer_.bind();
     const std::int64_t draw_ns = parts_.clock.now_ns();
     entry.drawn = parts_.scene.draw(eyepoint.view);
+    for (const std::string& fault : parts_.scene.take_faults())
+        parts_.warn(fault + "; an ancestor is drawn there");
     if (!wait_for_gpu()) {
         return tl::unexpected(
             std::string("the graphics driver did not finish a frame within 10 seconds; restart, and "

@@ -39,6 +39,7 @@ class FrameLoop {
         FrameRecord* record = nullptr;  ///< may be null
         Clock& clock;
         const terrain::Geoid* geoid = nullptr;
+        terrain::SurfaceHeight* surface = nullptr;
         std::function<bool()> stop_requested;
         std::function<void(std::string_view)> warn;
     };
