@@ -17,8 +17,11 @@ TEST(GroundClamp, ClampedAltitudeIsAboveTheTerrainNotTheSea) {
     const double latitude = terrain::post_latitude_deg(tile, 3),
                  longitude = terrain::post_longitude_deg(tile, 4);
     net::HostState state;
-    state.entities[0] = {
-        .latitude_deg = latitude, .longitude_deg = longitude, .altitude_m = 2.5, .above_ground = true};
+    state.entities[0] = {.latitude_deg = latitude,
+                         .longitude_deg = longitude,
+                         .altitude_m = 2.5,
+                         .attitude = {},
+                         .above_ground = true};
     const double ground_m = testing::analytic_height_m(terrain, latitude, longitude);
 
     EXPECT_NEAR(eyepoint_of(state, reading, {64, 64})->place.height.metres(), ground_m + 2.5, kHeightStepM);
