@@ -1,12 +1,9 @@
 /// The union of all drawn triangles on a lattice of exact post numbers, and its gaps.
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string>
-#include <unordered_map>
-#include <vector>
 
 #include "terrain/lod/lod_method.hpp"
 

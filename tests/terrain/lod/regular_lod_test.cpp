@@ -52,9 +52,7 @@ class Flight {
     }
     std::size_t publish(std::size_t most) { return pager_->publish(most, frame_); }
     bool wait() { return pager_->wait_for_loads(); }
-    MeshFaults faults(const Selection& selection) const {
-        return find_faults(selection.draws, lod_.indices());
-    }
+    MeshFaults faults(std::span<const BlockDraw> draws) const { return find_faults(draws, lod_.indices()); }
 
   private:
     ScratchFolder scratch_;
@@ -78,6 +76,11 @@ struct Place {
 };
 void PrintTo(const Place& place, std::ostream* stream) { *stream << place.name; }
 
+/// Over the pole itself, an eye among the hills is in the bounding boxes of all tiles that meet there,
+/// 2^(d+1) at depth d: thousands of blocks at full resolution. Above the highest hill a few hundred show the
+/// same seams.
+double clearance_m(double latitude_deg) { return latitude_deg == 90.0 ? 2000.0 : 0.0; }
+
 class RegularLodAt : public ::testing::TestWithParam<Place> {};
 
 TEST_P(RegularLodAt, DrawnMeshHasNoCracksFromRandomEyes) {
@@ -90,7 +93,7 @@ TEST_P(RegularLodAt, DrawnMeshHasNoCracksFromRandomEyes) {
             std::min(90.0, terrain.latitude_deg + (unit(random) * 2.0 - 1.0) * 1.2 * terrain.half_size_deg);
         const double longitude_deg =
             terrain.longitude_deg + (unit(random) * 2.0 - 1.0) * 1.2 * terrain.half_size_deg;
-        const double above_m = std::pow(10.0, 0.3 + 5.5 * unit(random));
+        const double above_m = std::max(std::pow(10.0, 0.3 + 5.5 * unit(random)), clearance_m(latitude_deg));
         const double ground_m = testing::analytic_height_m(terrain, latitude_deg, longitude_deg);
         const Ecef eye = to_ecef({latitude_deg, longitude_deg, EllipsoidalHeight{ground_m + above_m}});
         const glm::dmat3 enu = east_north_up(std::min(latitude_deg, 90.0), longitude_deg);
@@ -99,7 +102,8 @@ TEST_P(RegularLodAt, DrawnMeshHasNoCracksFromRandomEyes) {
                                                     std::cos(course) * std::cos(down), std::sin(down)};
         const LodView view = look(eye, forward, enu * glm::dvec3{0.1, 0.05, 1.0}, 0.5 + 4.0 * unit(random));
         const Selection& selection = flight.settle(view);
-        expect_whole(flight.faults(selection), std::string(GetParam().name) + ", eye " + std::to_string(i));
+        expect_whole(flight.faults(selection.draws),
+                     std::string(GetParam().name) + ", eye " + std::to_string(i));
     }
 }
 
@@ -107,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(
     Earth, RegularLodAt,
     ::testing::Values(Place{"alps", {}}, Place{"equator", {.latitude_deg = 0.0, .longitude_deg = 0.0}},
                       Place{"antimeridian", {.latitude_deg = -16.8, .longitude_deg = 180.0}},
-                      Place{"pole", {.latitude_deg = 89.7, .longitude_deg = 30.0, .detail_depth = 9}}),
+                      Place{"pole", {.latitude_deg = 89.7, .longitude_deg = 30.0, .detail_depth = 8}}),
     [](const auto& place) { return std::string(place.param.name); });
 
 TEST(RegularLod, HasNoCracksWhileBlocksAreStillArriving) {
@@ -118,13 +122,26 @@ TEST(RegularLod, HasNoCracksWhileBlocksAreStillArriving) {
     std::uint64_t triangles = 0;
     for (int frame = 0; frame < 400; ++frame) {
         const Selection& selection = flight.step(view);
-        expect_whole(flight.faults(selection), "frame " + std::to_string(frame));
+        expect_whole(flight.faults(selection.draws), "frame " + std::to_string(frame));
         triangles = std::max(triangles, selection.triangles);
         if (selection.wishes.empty()) break;
         flight.wait();
         flight.publish(3);
     }
     EXPECT_GT(triangles, 2000U);
+}
+
+TEST(RegularLod, ABlockDrawnCoarserThanItsNeighboursKnowIsCountedAsCracks) {
+    Flight flight({});
+    const Ecef eye = to_ecef({46.5, 8.25, EllipsoidalHeight{2500.0}});
+    const glm::dmat3 enu = east_north_up(46.5, 8.25);
+    const Selection& selection = flight.settle(look(eye, enu * glm::dvec3{0.3, 1.0, -0.2}, enu[2], 1.0));
+    std::vector<BlockDraw> draws = selection.draws;
+    ASSERT_GT(draws.size(), 4U);
+    const auto level = static_cast<int>(draws[1].node->mark.level);
+    ASSERT_LT(level, kRegularLevels - 1);
+    draws[1].indices = RegularMeshes{}.range(level + 1, 0);
+    EXPECT_GT(flight.faults(draws).cracks, 0U);
 }
 
 TEST(RegularLod, ASmallerToleranceDrawsMore) {
@@ -158,7 +175,7 @@ TEST(RegularLod, FromSpaceTheWholeVisibleHemisphereIsDrawn) {
     Flight flight({.amplitude_m = 0.0});
     const Ecef eye{3.0e7, 0.0, 0.0};
     const Selection& selection = flight.settle(look(eye, {-1.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, 1.0));
-    expect_whole(flight.faults(selection), "space");
+    expect_whole(flight.faults(selection.draws), "space");
     EXPECT_EQ(selection.draws.size(), 2U) << "both roots, the far side hidden inside them";
 }
 
