@@ -10,6 +10,9 @@ namespace {
 /// log2 of the posts a side of the Earth's half circle: a tile's depth, plus the five halvings in its block.
 constexpr int kBlockHalvings = 5;
 
+/// A picture's texel may cover so many pixels before a finer picture is wanted.
+constexpr double kMostPixelsATexel = 2.0;
+
 int resolution(const TileNode& node) {
     return static_cast<int>(node.tile.depth) + kBlockHalvings - node.mark.level;
 }
@@ -62,6 +65,13 @@ struct RegularLod::Frame {
     [[nodiscard]] double error_px(const TileNode& node, int level) const {
         return view.kappa_px * node.info.delta_m[static_cast<std::size_t>(level)] /
                std::max(node.mark.distance_m, view.near_m);
+    }
+
+    /// Too coarse in shape, or its picture too coarse where there is a finer one.
+    [[nodiscard]] bool too_coarse(const TileNode& node) const {
+        const double texel_px =
+            view.kappa_px * node.texel_to_refine_m / std::max(node.mark.distance_m, view.near_m);
+        return error_px(node, 0) > view.tau_px || texel_px > kMostPixelsATexel;
     }
 
     /// The leaf of the cut that covers a tile, or the tile's own node when the cut goes deeper there.
@@ -120,7 +130,7 @@ void RegularLod::cut(Frame& frame) {
         }
         TileNode& node = *by_depth_[depth].back();
         by_depth_[depth].pop_back();
-        if (node.mark.split || frame.error_px(node, 0) <= frame.view.tau_px) continue;
+        if (node.mark.split || !frame.too_coarse(node)) continue;
         const bool deeper = split(frame, node);
         if (deeper) depth = 0;
     }

@@ -12,9 +12,10 @@ namespace eyepoint::terrain {
 
 /// How it chooses, in four passes:
 /// 1. Cut. From the roots down, a visible tile is split when its finest level is too coarse for the view:
-///    kappa * delta_0 / D > tau. A split needs the four children loaded (else they are wished for and the
-///    tile is drawn in their place), and no edge neighbour that is drawn and less deep (else that is split
-///    first): so neighbours in the cut differ by one depth at most.
+///    kappa * delta_0 / D > tau, or when its picture's texels cover more than two pixels and there are finer
+///    pictures below. A split needs the four children loaded (else they are wished for and the tile is drawn
+///    in their place), and no edge neighbour that is drawn and less deep (else that is split first): so
+///    neighbours in the cut differ by one depth at most.
 /// 2. Levels. Each visible tile takes its coarsest level with kappa * delta_l / D <= tau.
 /// 3. Balance. A tile's resolution is depth + 5 - level; a visible neighbour more than one below it is
 /// raised.

@@ -56,7 +56,8 @@ class Pager {
     /// Hands at most so many finished blocks to the tree, drops the longest unused beyond the budget, and
     /// returns how many tiles became drawable or known to be unreadable.
     std::size_t publish(std::size_t most_blocks, std::uint64_t frame);
-    /// Waits until everything wished for has been loaded or found unreadable; true if there is something to publish.
+    /// Waits until everything wished for has been loaded or found unreadable; true if there is something to
+    /// publish.
     bool wait_for_loads();
     /// Wishes and loads under way, and finished ones not yet published.
     [[nodiscard]] std::size_t pending() const;

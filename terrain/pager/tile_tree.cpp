@@ -6,6 +6,19 @@
 
 namespace eyepoint::terrain {
 
+namespace {
+
+bool has_finer_picture(const Database& database, TileId tile) {
+    if (tile.depth >= kMaxDepth) return false;
+    for (int quadrant = 0; quadrant < 4; ++quadrant) {
+        const NodeInfo* info = database.find(child(tile, quadrant));
+        if (info != nullptr && info->has_image) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
 TileTree::TileTree(std::shared_ptr<const Database> database) : database_(std::move(database)) {
     for (std::uint32_t x = 0; x < roots_.size(); ++x) {
         describe(roots_[x], {0, x, 0}, nullptr);
@@ -19,6 +32,10 @@ void TileTree::describe(TileNode& node, TileId tile, TileNode* parent) const {
     if (const NodeInfo* info = database_->find(tile)) {
         node.stored = true;
         node.info = *info;
+        if (has_finer_picture(*database_, tile)) {
+            constexpr double kMetresPerDegree = 111320.0;
+            node.texel_to_refine_m = tile_side_deg(tile.depth) / kImageTexels * kMetresPerDegree;
+        }
     } else {
         node.info = subdivide(parent->info, tile);
     }

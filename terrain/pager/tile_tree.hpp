@@ -28,6 +28,8 @@ struct TileNode {
     NodeInfo info;
     TileBounds bounds;
     TileNode* parent = nullptr;
+    /// Side of a texel of this tile's picture, metres on the ground, where a child has a finer one; else 0.
+    double texel_to_refine_m = 0.0;
     bool stored = false;                 ///< in the database; else interpolated from its parent's block
     bool unreadable = false;             ///< loading failed: its ancestor stands in for it
     std::shared_ptr<const Block> block;  ///< nullptr until loaded

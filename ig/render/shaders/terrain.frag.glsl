@@ -36,7 +36,9 @@ vec3 ground_albedo(float metres, float steepness, float sin2, vec3 grain) {
     float bare = smoothstep(0.18, 0.40, steepness + 0.10 * grain.y + 0.25 * grain.z) +
                  smoothstep(snow_line - 600.0, snow_line - 50.0, metres);
     albedo = mix(albedo, rock, clamp(bare, 0.0, 1.0));
-    float snowy = smoothstep(snow_line - 120.0, snow_line + 180.0, metres - 1600.0 * max(steepness - 0.18, 0.0));
+    // Steep ground sheds its snow, the sooner the nearer the snow line.
+    float snowy = smoothstep(snow_line - 120.0, snow_line + 180.0, metres - 1600.0 * max(steepness - 0.18, 0.0)) *
+                  (1.0 - smoothstep(0.28, 0.48, steepness + 0.4 * grain.y + 0.5 * grain.z));
     return mix(albedo, snow, snowy);
 }
 
@@ -73,20 +75,25 @@ void main() {
     // repeats often, so only its fine part is used, which fades to nothing before the eye could see the pattern.
     vec2 broad = texture(noise, noise_at).rg - 0.5;
     vec2 near = texture(noise, mat2(29.0, 11.0, -11.0, 29.0) * noise_at).rg - 0.5;
-    vec3 grain = vec3(broad.r, broad.g, near.g + 0.25 * near.r);
+    // From far away the broad part would show its repetition too.
+    vec3 grain = vec3(broad.r, broad.g, near.g + 0.25 * near.r) * (1.0 - smoothstep(60000.0, 160000.0, metres));
     vec3 albedo = ground_albedo(height, 1.0 - dot(n, up), up.z * up.z, grain);
+    float pictured = 0.0;
 #ifdef IMAGES
     // A picture counts in full while its texels are small on the screen or on the ground; blown up beyond that, colours
     // by height and slope say more.
     float texel_pixels = texel_metres * sun_direction.w / metres;
     float sharp = 1.0 - smoothstep(3.0, 6.5, log2(max(texel_pixels, 1.0)));
     float small = 1.0 - smoothstep(150.0, 1000.0, texel_metres);
-    albedo = mix(albedo, texture(images, image_at).rgb, max(sharp, small));
+    pictured = max(sharp, small);
+    albedo = mix(albedo, texture(images, image_at).rgb, pictured);
 #endif
 
     vec3 surface = lit_ground(albedo, n, up);
 #ifdef WATER
-    surface = mix(surface, lit_water(direction, up, grain.yz, metres), smoothstep(0.4, 0.6, water));
+    // Water's own shading gives way to the picture where that is sharper than the posts that say where water is.
+    float wet = smoothstep(0.4, 0.6, water) * (1.0 - 0.85 * pictured * smoothstep(20000.0, 100000.0, metres));
+    surface = mix(surface, lit_water(direction, up, grain.yz, metres), wet);
 #endif
     Air air = air_along(direction, path_from_eye(max(height, 0.0), metres));
     colour = displayed(surface * air.clear + air.glow);
