@@ -13,6 +13,7 @@ target_sources(eyepoint_ig PRIVATE
     render/noise_texture.cpp
     render/program.cpp
     render/sky_pass.cpp
+    render/slot_table.cpp
     render/terrain_pass.cpp
     recorded_flight.cpp
     scene.cpp

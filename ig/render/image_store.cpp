@@ -1,7 +1,7 @@
 #include "ig/render/image_store.hpp"
 
-#include <algorithm>
 #include <bit>
+#include <vector>
 
 namespace eyepoint::ig {
 
@@ -35,20 +35,10 @@ ImageStore::ImageStore(std::uint32_t layers) : texture_(GLenum{GL_TEXTURE_2D_ARR
 }
 
 std::optional<std::uint32_t> ImageStore::layer_of(const terrain::ImageData& image, std::uint64_t frame) {
-    if (const auto found = layer_by_tile_.find(image.tile); found != layer_by_tile_.end()) {
-        layers_[found->second].used_frame = frame;
-        return found->second;
-    }
-    const auto age = [](const Layer& layer) { return layer.occupied ? layer.used_frame + 1 : 0; };
-    const auto oldest = std::min_element(layers_.begin(), layers_.end(),
-                                         [&](const Layer& a, const Layer& b) { return age(a) < age(b); });
-    if (oldest->occupied && oldest->used_frame == frame) return std::nullopt;
-    if (oldest->occupied) layer_by_tile_.erase(oldest->tile);
-    *oldest = {image.tile, frame, true};
-    const auto layer = static_cast<std::uint32_t>(oldest - layers_.begin());
-    layer_by_tile_.emplace(image.tile, layer);
-    upload(image, layer);
-    return layer;
+    const auto placement = layers_.place(image.tile, frame);
+    if (!placement) return std::nullopt;
+    if (placement->fresh) upload(image, placement->slot);
+    return placement->slot;
 }
 
 void ImageStore::upload(const terrain::ImageData& image, std::uint32_t layer) {
