@@ -58,8 +58,9 @@ void synthesise(Options options) {
     const auto geoid = terrain::Geoid::load(terrain::Geoid::default_grid());
     if (!geoid) fail(geoid.error());
     watch_for_interruption();
-    const SynthSurface surface{options.request, *geoid};
-    auto compile = compile_request(options, surface, *geoid);
+    const auto surface = SynthSurface::make(options.request, *geoid, was_interrupted);
+    if (!surface) fail("interrupted; nothing was written");
+    auto compile = compile_request(options, *surface, *geoid);
     ProgressBar bar{"synth"};
     compile.progress = [&bar](std::uint64_t done, std::uint64_t total) { bar.show(done, total); };
     const auto manifest = compile_database(compile);

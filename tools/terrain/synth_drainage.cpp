@@ -12,8 +12,6 @@ namespace eyepoint::tools {
 
 namespace {
 
-constexpr double kAreaExponent = 0.4;
-
 struct Step {
     int row, column;
     double length;
@@ -124,11 +122,12 @@ HeightGrid erode(const HeightGrid& grid, const std::vector<std::uint8_t>& is_bas
             post % static_cast<std::uint32_t>(grid.side) == receiver % static_cast<std::uint32_t>(grid.side);
         const double run_m = grid.spacing_m * (straight ? 1.0 : std::numbers::sqrt2);
         const double cut = rates.erodibility_per_year * (*rates.erodibility_factor)[post] * rates.step_years *
-                           std::pow(water.area_m2[post], kAreaExponent) / run_m;
+                           std::sqrt(water.area_m2[post]) / run_m;
         const double raised = grid.heights_m[post] + (*rates.uplift_m_per_year)[post] * rates.step_years;
         const double below = result.heights_m[receiver];
         const double height = (raised + cut * below) / (1.0 + cut);
-        result.heights_m[post] = std::min(std::max(height, below), below + rates.steepest_slope * run_m);
+        result.heights_m[post] =
+            std::min(std::max(height, below), below + (*rates.steepest_slope)[post] * run_m);
     }
     return result;
 }

@@ -1,25 +1,19 @@
 /// Landscape evolution on a grid: uplift against rivers, which is what makes valleys join, ridges branch and
 /// slopes lead down to the sea.
 ///
-/// Rivers cut by the stream power law, dh/dt = U - K A^0.4 |grad h|, A being the drained area; solved
+/// Rivers cut by the stream power law, dh/dt = U - K A^0.5 |grad h|, A being the drained area; solved
 /// implicitly from the sea upstream (J. Braun & S. Willett, "A very efficient O(n), implicit and parallel
 /// method to solve the stream power equation", Geomorphology 180, 2013). Pits are drained over their lowest
 /// rim by a priority flood (R. Barnes, C. Lehman & D. Mulla, Computers & Geosciences 62, 2014). Slopes
 /// steeper than rock stands slide.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
-namespace eyepoint::tools {
+#include "tools/terrain/synth_grid.hpp"
 
-/// A square grid, rows from south, columns from west.
-struct HeightGrid {
-    int side = 0;  ///< posts a side
-    double spacing_m = 0.0;
-    std::vector<double> heights_m;
-};
+namespace eyepoint::tools {
 
 /// Where water goes.
 struct Drainage {
@@ -36,8 +30,8 @@ struct Drainage {
 
 struct ErosionRates {
     double step_years = 0.0;
-    double erodibility_per_year = 0.0;  ///< K, for areas in square metres
-    double steepest_slope = 0.0;        ///< rise over run
+    double erodibility_per_year = 0.0;                    ///< K, for areas in square metres
+    const std::vector<double>* steepest_slope = nullptr;  ///< rise over run
     const std::vector<double>* uplift_m_per_year = nullptr;
     const std::vector<double>* erodibility_factor = nullptr;
 };

@@ -9,6 +9,9 @@
 
 namespace eyepoint::tools {
 
+/// Evenly scattered bits for a lattice point.
+[[nodiscard]] std::uint64_t lattice_hash(std::int64_t x, std::int64_t y, std::int64_t z, std::uint64_t seed);
+
 /// Smooth, about -1..1, mean 0, features about one unit across.
 [[nodiscard]] double gradient_noise(const glm::dvec3& place, std::uint64_t seed);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "terrain/geodesy/earth.hpp"
 #include "tools/terrain/synth_noise.hpp"
@@ -78,14 +79,6 @@ double planet_msl_m(const glm::dvec3& place, std::uint64_t seed) {
     return plain * smooth_step(0.0, 0.03, land) + 5'200.0 * belts * ridges * ridges;
 }
 
-/// What the region's grid is too coarse for: gullies and crags, the higher the steeper the ground.
-double relief_m(const glm::dvec3& place, double slope, double grid_spacing_m, std::uint64_t seed) {
-    const double height_m = 0.5 * grid_spacing_m * smooth_step(0.08, 0.9, slope);
-    if (height_m < 0.2) return 0.0;
-    const glm::dvec3 scaled = place * (kEquatorialRadiusM / (3.6 * grid_spacing_m));
-    return height_m * (ridged_noise(scaled, seed + 800, 5, 0.52) - 0.45);
-}
-
 }  // namespace
 
 std::uint32_t depth_for_spacing(double spacing_m) {
@@ -94,12 +87,21 @@ std::uint32_t depth_for_spacing(double spacing_m) {
     return depth;
 }
 
-SynthSurface::SynthSurface(const SynthRequest& request, const Geoid& geoid)
+std::optional<SynthSurface> SynthSurface::make(const SynthRequest& request, const Geoid& geoid,
+                                               const std::function<bool()>& cancelled) {
+    const GeographicExtent detail = detail_extent_of(request);
+    auto region = SynthRegion::make(region_of(request, detail), cancelled);
+    if (!region) return std::nullopt;
+    return SynthSurface{request, geoid, detail, std::move(*region)};
+}
+
+SynthSurface::SynthSurface(const SynthRequest& request, const Geoid& geoid, const GeographicExtent& detail,
+                           SynthRegion region)
     : geoid_(geoid),
       seed_(request.seed),
       spacing_m_(request.spacing_m),
-      detail_(detail_extent_of(request)),
-      region_(region_of(request, detail_)) {}
+      detail_(detail),
+      region_(std::move(region)) {}
 
 bool SynthSurface::has_detail(TileId tile) const {
     // A tile that only touches the detailed ground holds none of it.
@@ -121,7 +123,7 @@ SynthSurface::Place SynthSurface::at(double latitude_deg, double longitude_deg) 
     double ground_m = 0.0, level_m = 0.0;
     if (region && region->weight > 0.0) {
         level_m = region->weight == 1.0 ? region->water_level_msl_m : 0.0;
-        ground_m = region->ground_msl_m + relief_m(place, region->slope, region_.grid_spacing_m(), seed_);
+        ground_m = region->ground_msl_m;
     }
     if (!region || region->weight < 1.0) {
         const double weight = region ? region->weight : 0.0;

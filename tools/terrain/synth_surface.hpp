@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 
@@ -26,8 +27,11 @@ struct SynthRequest {
 /// Thread use: const use is safe from any thread. The same seed gives the same bits.
 class SynthSurface final : public ElevationSource {
   public:
-    /// The geoid is kept by reference. Building the region takes some ten seconds.
-    SynthSurface(const SynthRequest& request, const terrain::Geoid& geoid);
+    /// The geoid is kept by reference. Takes some ten seconds; cancelled is asked about every second, and may
+    /// be empty. Nothing is made once it says so.
+    [[nodiscard]] static std::optional<SynthSurface> make(const SynthRequest& request,
+                                                          const terrain::Geoid& geoid,
+                                                          const std::function<bool()>& cancelled = {});
 
     [[nodiscard]] bool has_detail(terrain::TileId tile) const override;
     void sample(const Lattice& lattice, std::span<SurfaceSample> out) const override;
@@ -43,6 +47,9 @@ class SynthSurface final : public ElevationSource {
     [[nodiscard]] Place at(double latitude_deg, double longitude_deg) const;
 
   private:
+    SynthSurface(const SynthRequest& request, const terrain::Geoid& geoid,
+                 const terrain::GeographicExtent& detail, SynthRegion region);
+
     const terrain::Geoid& geoid_;
     std::uint64_t seed_;
     double spacing_m_;
