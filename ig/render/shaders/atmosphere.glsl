@@ -5,7 +5,9 @@ const float kEarthRadius = 6371000.0;
 const vec3 kRayleigh = vec3(5.8e-6, 13.5e-6, 33.1e-6);  // 1/m at 680, 550, 440 nm, sea level
 const vec2 kScaleHeight = vec2(8000.0, 1200.0);
 const float kHazeAlbedo = 0.92;
-const float kSeveralScatterings = 2.2;  // how much brighter than single scattering a clear sky is, roughly
+// How much brighter than by single scattering air and haze are, roughly.
+const float kAirBrightening = 2.8;
+const float kHazeBrightening = 1.9;
 
 vec2 path_to_space(float height, float cosine) {
     return vec2(kScaleHeight.x * chapman(kEarthRadius / kScaleHeight.x, height / kScaleHeight.x, cosine),
@@ -35,8 +37,8 @@ Air air_along(vec3 direction, vec2 path) {
     float by_haze = sunlight.w * path.y;
     vec3 depth = by_air + by_haze;
     vec3 clear = exp(-depth);
-    vec3 source = by_air * rayleigh_phase + by_haze * kHazeAlbedo * mie_phase;
-    vec3 glow = skylight.rgb * source / max(depth, vec3(1e-9)) * (1.0 - clear) * (kSeveralScatterings / 12.566371);
+    vec3 source = by_air * (rayleigh_phase * kAirBrightening) + by_haze * (kHazeAlbedo * mie_phase * kHazeBrightening);
+    vec3 glow = skylight.rgb * source / max(depth, vec3(1e-9)) * (1.0 - clear) / 12.566371;
     return Air(clear, glow);
 }
 
@@ -46,9 +48,12 @@ vec3 sky_radiance(vec3 direction) {
     return air_along(direction, path_to_space(eye_up.w, max(dot(direction, eye_up.xyz), horizon))).glow;
 }
 
-// To display values: a film-like shoulder, then the display's gamma; half a step of dither against banding.
+// To display values: a film-like shoulder, which pales colours, so they are deepened before; then the display's gamma;
+// half a step of dither against banding.
 vec4 displayed(vec3 radiance) {
-    vec3 toned = 1.0 - exp(-3.0 * radiance);
+    const float kDeepen = 1.35;
+    float grey = dot(radiance, vec3(0.2126, 0.7152, 0.0722));
+    vec3 toned = 1.0 - exp(-2.9 * max(mix(vec3(grey), radiance, kDeepen), 0.0));
     float dither = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715)))) - 0.5;
     return vec4(pow(toned, vec3(1.0 / 2.2)) + dither / 255.0, 1.0);
 }
