@@ -17,7 +17,9 @@ namespace {
 class Mask {
   public:
     Mask(int width, int height, std::uint8_t outside)
-        : width_(width), height_(height), outside_(outside),
+        : width_(width),
+          height_(height),
+          outside_(outside),
           bytes_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
 
     [[nodiscard]] std::uint8_t at(int x, int y) const {
@@ -146,9 +148,9 @@ CrackReport find_cracks(const ig::Picture& picture, const ig::View& view, double
 void punch(ig::Picture& picture, int x, int y, int width, int height) {
     for (int row = y; row < y + height; ++row) {
         for (int column = x; column < x + width; ++column) {
-            std::uint8_t* pixel = picture.rgba.data() +
-                                  static_cast<std::ptrdiff_t>(row * picture.size.width_px + column) *
-                                      ig::Picture::kBytesPerPixel;
+            std::uint8_t* pixel =
+                picture.rgba.data() + static_cast<std::ptrdiff_t>(row * picture.size.width_px + column) *
+                                          ig::Picture::kBytesPerPixel;
             pixel[0] = 255, pixel[1] = 0, pixel[2] = 255;
         }
     }

@@ -35,7 +35,8 @@ struct CrackReport {
 };
 
 /// lowest_height_m: ellipsoidal height that no terrain is below.
-[[nodiscard]] CrackReport find_cracks(const ig::Picture& picture, const ig::View& view, double lowest_height_m);
+[[nodiscard]] CrackReport find_cracks(const ig::Picture& picture, const ig::View& view,
+                                      double lowest_height_m);
 
 /// A hole punched for proving that it is found.
 void punch(ig::Picture& picture, int x, int y, int width, int height);

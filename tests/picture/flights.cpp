@@ -18,9 +18,7 @@ T value_or_throw(tl::expected<T, std::string> made) {
 
 }  // namespace
 
-std::filesystem::path sample_flight() {
-    return EYEPOINT_SOURCE_DIR "/tools/flights/goms-c172-60s-30hz.pcap";
-}
+std::filesystem::path sample_flight() { return EYEPOINT_SOURCE_DIR "/tools/flights/goms-c172-60s-30hz.pcap"; }
 
 std::shared_ptr<const terrain::Database> open_database(const std::filesystem::path& folder) {
     return std::make_shared<const terrain::Database>(value_or_throw(terrain::Database::open(folder)));
@@ -36,13 +34,13 @@ std::optional<std::filesystem::path> real_data() {
     return folder;
 }
 
-std::vector<ig::FlightEye> eyes_of(const std::filesystem::path& flight, ig::PictureSize size, double rate_hz) {
+std::vector<ig::FlightEye> eyes_of(const std::filesystem::path& flight, ig::PictureSize size,
+                                   double rate_hz) {
     const auto geoid = value_or_throw(terrain::Geoid::load(terrain::Geoid::default_grid()));
     const auto recording = value_or_throw(net::read_pcap(flight));
     const auto port = ig::busiest_port(recording);
     if (!port) throw std::runtime_error(flight.string() + " holds no datagram");
-    return value_or_throw(
-        ig::fly(recording, *port, {{}, config::VerticalDatum::Msl, &geoid}, size, rate_hz));
+    return value_or_throw(ig::fly(recording, *port, {{}, config::VerticalDatum::Msl, &geoid}, size, rate_hz));
 }
 
 }  // namespace eyepoint::testing

@@ -43,8 +43,10 @@ std::vector<double> horizon_rows(const ReferenceCamera& camera, double x) {
     std::vector<double> rows{q / a, at0 / q};
     if (rows[0] > rows[1]) std::swap(rows[0], rows[1]);
     // The other branch of the cone that touches the ellipsoid lies behind the eye.
-    std::erase_if(rows, [&](double y) { return !camera.ellipsoid_distance_m({x, y + 0.01}, 0.0) &&
-                                               !camera.ellipsoid_distance_m({x, y - 0.01}, 0.0); });
+    std::erase_if(rows, [&](double y) {
+        return !camera.ellipsoid_distance_m({x, y + 0.01}, 0.0) &&
+               !camera.ellipsoid_distance_m({x, y - 0.01}, 0.0);
+    });
     return rows;
 }
 
@@ -114,9 +116,10 @@ TEST_P(Horizon, IsWhereTheEllipsoidHasItWithinAPixel) {
                                              std::to_string(turn) + ".png");
             EXPECT_GT(errors.columns, 1000);
             EXPECT_LE(errors.largest_px, kLargestErrorPx);
-            std::printf("height %8.0f m, roll %4.0f: largest %.2f px, mean %+.3f px, %d columns, %lu triangles\n",
-                        kHeightsM[i], pose.roll_deg, errors.largest_px, errors.sum_px / errors.columns,
-                        errors.columns, static_cast<unsigned long>(drawn.statistics.triangles));
+            std::printf(
+                "height %8.0f m, roll %4.0f: largest %.2f px, mean %+.3f px, %d columns, %lu triangles\n",
+                kHeightsM[i], pose.roll_deg, errors.largest_px, errors.sum_px / errors.columns,
+                errors.columns, static_cast<unsigned long>(drawn.statistics.triangles));
         }
     }
 }

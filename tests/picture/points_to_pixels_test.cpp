@@ -59,11 +59,12 @@ struct Case {
 Case case_on(const Ground& ground, const Height& height) {
     Place apex = on_post(ground.place, height.depth);
     apex.height_m = height.apex_m;
-    return {ground.name + height.name, {apex, height.depth, 1, 1}, height.eye_m, height.way_m, height.fov_deg, ground.eye_azimuths_deg};
+    return {ground.name + height.name, {apex, height.depth, 1, 1}, height.eye_m, height.way_m, height.fov_deg,
+            ground.eye_azimuths_deg};
 }
 
-/// An eye within a kilometre of the pole and a pyramid further down the meridian, or across the pole, which is
-/// wider in columns than in rows of posts: columns are centimetres apart there.
+/// An eye within a kilometre of the pole and a pyramid further down the meridian, or across the pole, which
+/// is wider in columns than in rows of posts: columns are centimetres apart there.
 struct PolarSight {
     unsigned depth = 0;
     int half_height_rows = 1;
@@ -79,7 +80,8 @@ Case case_near_pole(const Height& height, const PolarSight& sight) {
     Place apex = on_post({90.0, 33.0, 0.0}, sight.depth);
     apex.latitude_deg = 90.0 - rows * spacing_deg;
     apex.height_m = height.apex_m;
-    const double column_m = spacing_deg * kMetresPerDegree * std::cos(apex.latitude_deg * std::acos(-1.0) / 180.0);
+    const double column_m =
+        spacing_deg * kMetresPerDegree * std::cos(apex.latitude_deg * std::acos(-1.0) / 180.0);
     const int columns = static_cast<int>(std::lround(0.2 * height.apex_m / column_m));
     return {"EyeWithin1kmOfPole" + height.name,
             {apex, sight.depth, sight.half_height_rows, columns},
@@ -103,7 +105,7 @@ std::vector<Case> all_cases() {
         cases.push_back(case_on({"PoleItself", {-90.0, 0.0, 0.0}}, kHeights[i]));
     cases.push_back(case_near_pole(kHeights[0], {15, 1, 480.0, 60.0, {0.0}}));
     cases.push_back(case_near_pole(kHeights[1], {8, 1, 20e3, 20.2e3, {0.0, 1.0}}));
-    cases.push_back(case_near_pole(kHeights[2], {9, 4, 300e3, 300.2e3, {0.0, 0.1}}));
+    cases.push_back(case_near_pole(kHeights[2], {10, 8, 300e3, 300.2e3, {0.0, 0.1}}));
     return cases;
 }
 
@@ -130,26 +132,11 @@ std::vector<CameraPose> poses(const Case& what) {
     return result;
 }
 
-/// Ends of the outline's two sides: the outermost of the projected base points, seen from the apex.
-std::array<glm::dvec2, 2> outline_ends(const Spike& spike, const ReferenceCamera& camera, const glm::dvec2& apex) {
-    std::vector<glm::dvec2> sides;
-    glm::dvec2 middle{0.0};
-    for (const Place& place : base_points(spike)) {
-        sides.push_back(camera.project(ecef_of(place)).value() - apex);
-        middle += sides.back();
-    }
-    const auto bearing = [&](const glm::dvec2& side) {
-        return std::atan2(middle.x * side.y - middle.y * side.x, glm::dot(middle, side));
-    };
-    const auto [least, most] = std::minmax_element(
-        sides.begin(), sides.end(), [&](const auto& a, const auto& b) { return bearing(a) < bearing(b); });
-    return {apex + *least, apex + *most};
-}
-
 /// The pyramid is what is nearer than the bare ellipsoid, by more than any rounding.
 Coverage pyramid_in(const DrawnPicture& drawn, const ReferenceCamera& camera) {
     return [&drawn, &camera](int x, int y) {
-        if (x < 0 || y < 0 || x >= drawn.picture.size.width_px || y >= drawn.picture.size.height_px) return false;
+        if (x < 0 || y < 0 || x >= drawn.picture.size.width_px || y >= drawn.picture.size.height_px)
+            return false;
         const double distance_m = drawn.distance_at(x, y);
         const auto bare_m = camera.ellipsoid_distance_m({x + 0.5, y + 0.5}, 0.0);
         return distance_m > 0.0 && (!bare_m || distance_m < 0.99 * *bare_m);
@@ -177,22 +164,20 @@ TEST_P(PointsToPixels, AgreeWithThePlainProjectionWithinHalfAPixel) {
     for (const CameraPose& pose : poses(what)) {
         SCOPED_TRACE(words(pose));
         const ReferenceCamera camera(pose);
-        const glm::dvec2 apex = camera.project(ecef_of(what.spike.apex)).value();
-        const auto ends = outline_ends(what.spike, camera, apex);
+        const auto [apex, one_end, other_end] = outline(what.spike, camera);
         const DrawnPicture drawn = renderer.draw_complete(pose);
         if (const char* folder = std::getenv("EYEPOINT_LOOK"))
             write_png(drawn.picture, std::string(folder) + "/points-" + what.name + "-" +
                                          std::to_string(static_cast<int>(pose.roll_deg)) + ".png");
         const Coverage covers = pyramid_in(drawn, camera);
-        const glm::dvec2 inside = (apex + ends[0] + ends[1]) / 3.0;
-        const auto one = fit_edge(covers, apex, ends[0], inside);
-        const auto other = fit_edge(covers, apex, ends[1], inside);
-        ASSERT_TRUE(one.has_value()) << "no edge towards " << ends[0].x << " " << ends[0].y;
-        ASSERT_TRUE(other.has_value()) << "no edge towards " << ends[1].x << " " << ends[1].y;
+        const glm::dvec2 inside = (apex + one_end + other_end) / 3.0;
+        const auto one = fit_edge(covers, apex, one_end, inside);
+        const auto other = fit_edge(covers, apex, other_end, inside);
+        ASSERT_TRUE(one.has_value()) << "no edge towards " << one_end.x << " " << one_end.y;
+        ASSERT_TRUE(other.has_value()) << "no edge towards " << other_end.x << " " << other_end.y;
         const auto drawn_apex = crossing(*one, *other);
         ASSERT_TRUE(drawn_apex.has_value());
         const double error_px = glm::distance(*drawn_apex, apex);
-        std::printf("  %s: %.3f px (%.3f %.3f)\n", words(pose).c_str(), error_px, drawn_apex->x-apex.x, drawn_apex->y-apex.y);
         EXPECT_LE(error_px, kLargestErrorPx) << "drawn at " << drawn_apex->x << " " << drawn_apex->y
                                              << ", expected at " << apex.x << " " << apex.y;
         largest_px = std::max(largest_px, error_px);

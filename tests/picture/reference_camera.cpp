@@ -66,10 +66,10 @@ ReferenceCamera::ReferenceCamera(const CameraPose& pose)
     const double cr = std::cos(pose.roll_deg * kDegree), sr = std::sin(pose.roll_deg * kDegree);
     // Columns of Rz(yaw) Ry(pitch) Rx(roll), each combined from north, east and down.
     forward_ = cy * cp * local.north + sy * cp * local.east - sp * local.down;
-    right_ = (cy * sp * sr - sy * cr) * local.north + (sy * sp * sr + cy * cr) * local.east +
-             cp * sr * local.down;
-    down_ = (cy * sp * cr + sy * sr) * local.north + (sy * sp * cr - cy * sr) * local.east +
-            cp * cr * local.down;
+    right_ =
+        (cy * sp * sr - sy * cr) * local.north + (sy * sp * sr + cy * cr) * local.east + cp * sr * local.down;
+    down_ =
+        (cy * sp * cr + sy * sr) * local.north + (sy * sp * cr - cy * sr) * local.east + cp * cr * local.down;
 }
 
 std::optional<glm::dvec2> ReferenceCamera::project(const glm::dvec3& ecef) const {

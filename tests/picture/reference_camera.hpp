@@ -1,5 +1,5 @@
-/// A camera on the WGS84 Earth in plain double precision: the expected side of the picture tests. It shares no
-/// code with what it judges; GeographicLib places points, everything else is written out here.
+/// A camera on the WGS84 Earth in plain double precision: the expected side of the picture tests. It shares
+/// no code with what it judges; GeographicLib places points, everything else is written out here.
 #pragma once
 
 #include <optional>

@@ -21,14 +21,16 @@ T value_or_throw(tl::expected<T, std::string> made) {
 
 /// Of the frame buffer bound for reading. Reverse-Z with the far plane at infinity: depth = near / distance.
 std::vector<double> read_distances(ig::PictureSize size, double near_m) {
-    const auto width = static_cast<std::size_t>(size.width_px), height = static_cast<std::size_t>(size.height_px);
+    const auto width = static_cast<std::size_t>(size.width_px),
+               height = static_cast<std::size_t>(size.height_px);
     std::vector<float> depths(width * height);
     glReadPixels(0, 0, size.width_px, size.height_px, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
     std::vector<double> distances(depths.size());
     for (std::size_t row = 0; row < height; ++row) {
         const float* from = depths.data() + (height - 1 - row) * width;
-        std::transform(from, from + width, distances.begin() + static_cast<std::ptrdiff_t>(row * width),
-                       [near_m](float depth) { return depth > 0.0F ? near_m / static_cast<double>(depth) : 0.0; });
+        std::transform(
+            from, from + width, distances.begin() + static_cast<std::ptrdiff_t>(row * width),
+            [near_m](float depth) { return depth > 0.0F ? near_m / static_cast<double>(depth) : 0.0; });
     }
     return distances;
 }
@@ -49,7 +51,8 @@ ig::View view_of(const CameraPose& pose) {
                          .longitude_deg = pose.place.longitude_deg,
                          .altitude_m = pose.place.height_m,
                          .attitude = {pose.yaw_deg, pose.pitch_deg, pose.roll_deg}};
-    ig::EyepointReading reading{.view = {}, .altitude_datum = config::VerticalDatum::Ellipsoid, .geoid = nullptr};
+    ig::EyepointReading reading{
+        .view = {}, .altitude_datum = config::VerticalDatum::Ellipsoid, .geoid = nullptr};
     reading.view.vertical_fov_deg = pose.vertical_fov_deg;
     return ig::eyepoint_of(state, reading, {pose.width_px, pose.height_px}).value().view;
 }
@@ -86,7 +89,8 @@ ig::FrameStatistics Renderer::draw_now(const ig::View& view, ig::Picture& pictur
 void write_png(const ig::Picture& picture, const std::string& file) {
     const OIIO::ImageSpec spec(picture.size.width_px, picture.size.height_px, 3, OIIO::TypeDesc::UINT8);
     OIIO::ImageBuf image(spec);
-    image.set_pixels(OIIO::ROI::All(), OIIO::TypeDesc::UINT8, picture.rgba.data(), ig::Picture::kBytesPerPixel,
+    image.set_pixels(OIIO::ROI::All(), OIIO::TypeDesc::UINT8, picture.rgba.data(),
+                     ig::Picture::kBytesPerPixel,
                      static_cast<OIIO::stride_t>(picture.size.width_px) * ig::Picture::kBytesPerPixel);
     if (!image.write(file)) throw std::runtime_error(image.geterror());
 }

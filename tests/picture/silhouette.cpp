@@ -53,10 +53,12 @@ std::optional<ImageLine> fit_edge(const Coverage& covers, const glm::dvec2& from
     std::vector<glm::dvec2> changes;  // x: along, y: across
     for (int row = first; row < last; ++row) {
         const double along = row + 0.5;
-        const auto change = change_near(covers, steep, inside_after, row, across_start + slope * (along - along_start));
+        const auto change =
+            change_near(covers, steep, inside_after, row, across_start + slope * (along - along_start));
         if (change) changes.push_back({along, *change});
     }
-    if (static_cast<int>(changes.size()) < std::max(kLeastEdgeRows, (last - first) * 9 / 10)) return std::nullopt;
+    if (static_cast<int>(changes.size()) < std::max(kLeastEdgeRows, (last - first) * 9 / 10))
+        return std::nullopt;
     return least_squares(steep, changes);
 }
 

@@ -25,10 +25,10 @@ struct ImageLine {
 inline constexpr int kEdgeSearchPx = 8;
 inline constexpr int kLeastEdgeRows = 40;
 
-/// The drawn edge along an expected segment of a feature's outline: in every row (or column, whichever crosses
-/// the edge) between a tenth and three quarters of the way, the one place near the expected one where coverage
-/// begins, known to half a pixel; then the least-squares line through them all. `inside`: a place within the
-/// feature. Nothing when fewer than kLeastEdgeRows rows, or nine in ten, show just one such place.
+/// The drawn edge along an expected segment of a feature's outline: in every row (or column, whichever
+/// crosses the edge) between a tenth and three quarters of the way, the one place near the expected one where
+/// coverage begins, known to half a pixel; then the least-squares line through them all. `inside`: a place
+/// within the feature. Nothing when fewer than kLeastEdgeRows rows, or nine in ten, show just one such place.
 [[nodiscard]] std::optional<ImageLine> fit_edge(const Coverage& covers, const glm::dvec2& from,
                                                 const glm::dvec2& to, const glm::dvec2& inside);
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <vector>
+
+#include <glm/geometric.hpp>
 
 #include "terrain/geodesy/geoid.hpp"
 #include "tools/terrain/compile.hpp"
@@ -65,6 +68,32 @@ class SpikeSource final : public tools::ElevationSource {
     double spacing_deg_;
 };
 
+/// Points at height 0 that the straight sides run to from the apex; the outermost two, as seen from outside,
+/// are the ends of the outline's sides.
+std::vector<Place> base_points(const Spike& spike) {
+    const double spacing = spacing_deg(spike.depth);
+    const double latitude = spike.apex.latitude_deg, longitude = spike.apex.longitude_deg;
+    std::vector<Place> points;
+    if (at_pole(spike)) {
+        const double ring = latitude - std::copysign(spacing, latitude);
+        const auto around = static_cast<int>(std::lround(360.0 / spacing));
+        for (int post = 0; post < around; ++post) points.push_back({ring, post * spacing, 0.0});
+        return points;
+    }
+    const double half_width = spike.half_width_columns * spacing,
+                 half_height = spike.half_height_rows * spacing;
+    points = {{latitude, longitude - half_width, 0.0},
+              {latitude, longitude + half_width, 0.0},
+              {latitude - half_height, longitude, 0.0},
+              {latitude + half_height, longitude, 0.0}};
+    if (spike.half_height_rows == 1) {
+        // Cells are split from south-west to north-east, so the apex has six neighbours, not eight.
+        points.push_back({latitude - spacing, longitude - spacing, 0.0});
+        points.push_back({latitude + spacing, longitude + spacing, 0.0});
+    }
+    return points;
+}
+
 }  // namespace
 
 Place on_post(const Place& place, unsigned depth) {
@@ -79,27 +108,20 @@ Place on_post(const Place& place, unsigned depth) {
             place.height_m};
 }
 
-std::vector<Place> base_points(const Spike& spike) {
-    const double spacing = spacing_deg(spike.depth);
-    const double latitude = spike.apex.latitude_deg, longitude = spike.apex.longitude_deg;
-    std::vector<Place> points;
-    if (at_pole(spike)) {
-        const double ring = latitude - std::copysign(spacing, latitude);
-        const auto around = static_cast<int>(std::lround(360.0 / spacing));
-        for (int post = 0; post < around; ++post) points.push_back({ring, post * spacing, 0.0});
-        return points;
+Outline outline(const Spike& spike, const ReferenceCamera& camera) {
+    const glm::dvec2 apex = camera.project(ecef_of(spike.apex)).value();
+    std::vector<glm::dvec2> sides;
+    glm::dvec2 middle{0.0};
+    for (const Place& place : base_points(spike)) {
+        sides.push_back(camera.project(ecef_of(place)).value() - apex);
+        middle += sides.back();
     }
-    const double half_width = spike.half_width_columns * spacing, half_height = spike.half_height_rows * spacing;
-    points = {{latitude, longitude - half_width, 0.0},
-              {latitude, longitude + half_width, 0.0},
-              {latitude - half_height, longitude, 0.0},
-              {latitude + half_height, longitude, 0.0}};
-    if (spike.half_height_rows == 1) {
-        // Cells are split from south-west to north-east, so the apex has six neighbours, not eight.
-        points.push_back({latitude - spacing, longitude - spacing, 0.0});
-        points.push_back({latitude + spacing, longitude + spacing, 0.0});
-    }
-    return points;
+    const auto bearing = [&](const glm::dvec2& side) {
+        return std::atan2(middle.x * side.y - middle.y * side.x, glm::dot(middle, side));
+    };
+    const auto [least, most] = std::minmax_element(
+        sides.begin(), sides.end(), [&](const auto& a, const auto& b) { return bearing(a) < bearing(b); });
+    return {apex, apex + *least, apex + *most};
 }
 
 std::shared_ptr<const terrain::Database> make_spike_database(const Spike& spike,
