@@ -23,7 +23,7 @@ std::optional<SynthRegion> SynthRegion::make(const RegionShape& shape,
                                              const std::function<bool()>& cancelled) {
     const RegionSetting setting{shape.seed};
     auto rivers = evolve(shape.half_width_m, shape.seed, setting, cancelled);
-    if (!rivers) return std::nullopt;
+    if (!rivers || (cancelled && cancelled())) return std::nullopt;
     return SynthRegion{shape, shape_valleys(std::move(*rivers), setting, shape.seed)};
 }
 

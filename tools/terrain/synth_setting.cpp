@@ -53,7 +53,7 @@ double RegionSetting::inland_m(glm::dvec2 at) const {
 double RegionSetting::uplift_m_per_year(glm::dvec2 at) const {
     const double massif = 0.3 + 0.7 * smooth_step(0.0, 45'000.0, inland_m(at));
     const double blocks = 1.0 + 0.9 * noise(at, 24'000.0, 29, 3);
-    return kUpliftMPerYear * massif * std::clamp(blocks, 0.4, 1.6) * (1.0 + 0.8 * in_rows(in_valley(at)));
+    return kUpliftMPerYear * massif * std::clamp(blocks, 0.4, 1.6) * (1.0 + 0.65 * in_rows(in_valley(at)));
 }
 
 double RegionSetting::erodibility_factor(glm::dvec2 at) const {
@@ -61,7 +61,7 @@ double RegionSetting::erodibility_factor(glm::dvec2 at) const {
 }
 
 double RegionSetting::steepest_slope(glm::dvec2 at) const {
-    return 0.6 + 0.2 * in_rows(in_valley(at)) + 0.6 * noise(at, 5'000.0, 59, 3);
+    return 0.53 + 0.19 * in_rows(in_valley(at)) + 0.6 * noise(at, 5'000.0, 59, 3);
 }
 
 ValleyPlace RegionSetting::in_valley(glm::dvec2 at) const {

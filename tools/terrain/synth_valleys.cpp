@@ -152,7 +152,7 @@ Valleys shape_valleys(HeightGrid rivers, const RegionSetting& setting, std::uint
     const BaseLevel base = base_level(rivers, setting);
     const Drainage water = route_water(rivers, base.is_base, seed);
     broaden_valleys(rivers, water);
-    Valleys result{smoothed(rivers, 0.5), {}};
+    Valleys result{smoothed(rivers, 0.3), {}};
     result.water_level_msl_m = dig_lakes(result.ground, water);
     dig_main_lake(result.ground, result.water_level_msl_m, setting);
     result.water_level_msl_m = spread(result.water_level_msl_m, result.ground.side);

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -37,6 +39,59 @@ TEST(Synth, TheSampleFlightClearsTheGroundAndSeesHigherPeaks) {
         }
     }
     EXPECT_GT(highest_around, 3'056.0);
+}
+
+double slope_deg(const SynthSurface& surface, double latitude, double longitude) {
+    constexpr double kApartM = 60.0, kMetresPerDegree = 111'320.0;
+    const double step = kApartM / kMetresPerDegree;
+    const double here = surface.at(latitude, longitude).msl_m;
+    const double north = surface.at(latitude + step, longitude).msl_m - here;
+    const double east = surface.at(latitude, longitude + step / 0.6895).msl_m - here;
+    return std::atan(std::hypot(north, east) / kApartM) * 180.0 / std::numbers::pi;
+}
+
+// Like the Alps: on the elevation tile N46E008, 57 % of the ground within 12 km of 46.41 N 8.155 E is steeper
+// than 25 degrees and 80 % steeper than 15, over 60 m; a twentieth of it lies below 1,268 m, the summits
+// reach 3,921 m.
+TEST(Synth, TheMountainsAreAsSteepAndHighAsTheAlps) {
+    const SynthSurface& surface = default_surface();
+    int places = 0, steep = 0, sloping = 0;
+    double lowest = 9e3, highest = 0.0;
+    for (double north = -0.1; north <= 0.1; north += 0.001) {
+        for (double east = -0.145; east <= 0.145; east += 0.0015) {
+            const double degrees = slope_deg(surface, 46.41 + north, 8.155 + east);
+            ++places;
+            steep += degrees > 25.0 ? 1 : 0;
+            sloping += degrees > 15.0 ? 1 : 0;
+            const double msl_m = surface.at(46.41 + north, 8.155 + east).msl_m;
+            lowest = std::min(lowest, msl_m);
+            highest = std::max(highest, msl_m);
+        }
+    }
+    EXPECT_NEAR(static_cast<double>(steep) / places, 0.57, 0.15);
+    EXPECT_NEAR(static_cast<double>(sloping) / places, 0.80, 0.10);
+    EXPECT_NEAR(highest, 3'921.0, 400.0);
+    EXPECT_LT(lowest, 1'350.0);
+}
+
+TEST(Synth, TheFloorUnderTheFlightIsABroadValley) {
+    for (double share = 0.0; share <= 1.0; share += 0.25) {
+        const double latitude = 46.4024 + share * 0.0135, longitude = 8.1363 + share * 0.0380;
+        int level = 0;
+        // Across the valley, 100 m a step.
+        for (int step = -25; step <= 25; ++step) {
+            const double msl_m =
+                default_surface().at(latitude + step * 0.00079, longitude - step * 0.00063).msl_m;
+            level += msl_m > 1'150.0 && msl_m < 1'450.0 ? 1 : 0;
+        }
+        EXPECT_GE(level, 10);
+    }
+}
+
+TEST(Synth, NothingIsMadeOnceCancelled) {
+    int asked = 0;
+    EXPECT_FALSE(SynthSurface::make({}, geoid(), [&asked] { return ++asked > 3; }));
+    EXPECT_EQ(asked, 4);
 }
 
 TEST(Synth, HasLandAndWater) {
