@@ -93,15 +93,19 @@ std::optional<HeightGrid> evolve(double half_width_m, std::uint64_t seed, const 
     const int first = kPasses.front().side;
     HeightGrid grid{first, 2.0 * half_width_m / (first - 1),
                     std::vector<double>(static_cast<std::size_t>(first) * static_cast<std::size_t>(first))};
+    const auto stop = [&cancelled] { return cancelled && cancelled(); };
     for (const Pass& pass : kPasses) {
         if (pass.side != grid.side) grid = bent(grid, pass.side, setting);
+        if (stop()) return std::nullopt;
         const BaseLevel base = base_level(grid, setting);
+        if (stop()) return std::nullopt;
         const Rock rock = rock_of(grid, setting);
+        if (stop()) return std::nullopt;
         prepare(grid, base, setting);
         const ErosionRates rates{pass.step_years, kErodibilityPerYear, &rock.steepest_slope,
                                  &rock.uplift_m_per_year, &rock.erodibility_factor};
         for (int step = 0; step < pass.steps; ++step) {
-            if (cancelled && cancelled()) return std::nullopt;
+            if (stop()) return std::nullopt;
             grid = erode(grid, base.is_base, rates, seed + static_cast<std::uint64_t>(step / 4));
         }
     }
