@@ -2,11 +2,12 @@
 /// that is known), in frames of the sample flight over synthetic terrain and of a real flight over real
 /// terrain, complete and while loads are arriving.
 ///
-/// EYEPOINT_EVERY_FRAME=1 draws every frame (some hours of software GL); otherwise a share of them that keeps
-/// ctest within minutes.
+/// EYEPOINT_EVERY_FRAME=1 draws every frame (two hours of software GL on two cores); otherwise a share of
+/// them that keeps ctest within minutes.
 #include "tests/picture/cracks.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <memory>
 #include <string>

@@ -5,6 +5,7 @@
 ///     EYEPOINT_BLESS=1 ctest --test-dir build/release -R GoldenPicture
 /// A picture that differs leaves NAME-expected.png, NAME-got.png and NAME-diff.png (differences times 8) in
 /// tests/golden of the build folder.
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <optional>

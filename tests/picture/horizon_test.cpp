@@ -4,6 +4,7 @@
 /// column (or row) of the picture the discriminant is itself quadratic, so three values give the place.
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -110,10 +111,9 @@ TEST_P(Horizon, IsWhereTheEllipsoidHasItWithinAPixel) {
                          " roll " + std::to_string(pose.roll_deg));
             const DrawnPicture drawn = renderer.draw_complete(pose);
             const Errors errors = compare(drawn.picture, ReferenceCamera(pose));
-            if (const char* folder = std::getenv("EYEPOINT_LOOK"))
-                write_png(drawn.picture, std::string(folder) + "/horizon-" + GetParam().name + "-" +
-                                             std::to_string(static_cast<int>(kHeightsM[i])) + "-" +
-                                             std::to_string(turn) + ".png");
+            keep_for_looking(drawn.picture, "horizon-" + GetParam().name + "-" +
+                                                std::to_string(static_cast<int>(kHeightsM[i])) + "-" +
+                                                std::to_string(turn));
             EXPECT_GT(errors.columns, 1000);
             EXPECT_LE(errors.largest_px, kLargestErrorPx);
             std::printf(

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -166,9 +167,8 @@ TEST_P(PointsToPixels, AgreeWithThePlainProjectionWithinHalfAPixel) {
         const ReferenceCamera camera(pose);
         const auto [apex, one_end, other_end] = outline(what.spike, camera);
         const DrawnPicture drawn = renderer.draw_complete(pose);
-        if (const char* folder = std::getenv("EYEPOINT_LOOK"))
-            write_png(drawn.picture, std::string(folder) + "/points-" + what.name + "-" +
-                                         std::to_string(static_cast<int>(pose.roll_deg)) + ".png");
+        keep_for_looking(drawn.picture,
+                         "points-" + what.name + "-" + std::to_string(static_cast<int>(pose.roll_deg)));
         const Coverage covers = pyramid_in(drawn, camera);
         const glm::dvec2 inside = (apex + one_end + other_end) / 3.0;
         const auto one = fit_edge(covers, apex, one_end, inside);

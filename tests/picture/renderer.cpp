@@ -1,6 +1,7 @@
 #include "tests/picture/renderer.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <stdexcept>
 #include <utility>
 
@@ -93,6 +94,11 @@ void write_png(const ig::Picture& picture, const std::string& file) {
                      ig::Picture::kBytesPerPixel,
                      static_cast<OIIO::stride_t>(picture.size.width_px) * ig::Picture::kBytesPerPixel);
     if (!image.write(file)) throw std::runtime_error(image.geterror());
+}
+
+void keep_for_looking(const ig::Picture& picture, const std::string& name) {
+    if (const char* folder = std::getenv("EYEPOINT_LOOK"))
+        write_png(picture, std::string(folder) + "/" + name + ".png");
 }
 
 }  // namespace eyepoint::testing

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "ig/egl_context.hpp"
@@ -51,7 +52,10 @@ class Renderer {
     std::unique_ptr<ig::Scene> scene_;
 };
 
-/// For looking at: writes a picture as PNG. Throws std::runtime_error.
+/// Throws std::runtime_error.
 void write_png(const ig::Picture& picture, const std::string& file);
+
+/// For looking at what a test draws: NAME.png in the folder that EYEPOINT_LOOK names, where it is set.
+void keep_for_looking(const ig::Picture& picture, const std::string& name);
 
 }  // namespace eyepoint::testing

@@ -6,7 +6,9 @@
 /// half a pixel, their mean to a few hundredths, as the sides are slanted and cross the pixels' centres at
 /// ever different fractions. Positions held in 32-bit floats at the Earth's radius would move it by up to
 /// half a metre, 25 pixels.
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 #include <optional>
 #include <stdexcept>
