@@ -27,7 +27,7 @@ std::filesystem::path Geoid::default_grid() {
     std::error_code failure;
     const auto program = std::filesystem::read_symlink("/proc/self/exe", failure);
     if (!failure) {
-        const auto installed = program.parent_path().parent_path() / "share" / "eyepoint" / "egm96-15.pgm";
+        auto installed = program.parent_path().parent_path() / "share" / "eyepoint" / "egm96-15.pgm";
         if (std::filesystem::exists(installed, failure)) return installed;
     }
     return EYEPOINT_BUILD_SHARE_DIR "/egm96-15.pgm";

@@ -91,10 +91,10 @@ tl::expected<std::shared_ptr<const Block>, std::string> Pager::load(const Job& j
     }
     auto data = database_->read_block(job.tile);
     if (!data) return tl::unexpected(data.error());
-    if (!job.has_image) return unfold(std::move(*data), std::nullopt);
+    if (!job.has_image) return unfold(*data, std::nullopt);
     auto image = database_->read_image(job.tile);
     if (!image) return tl::unexpected(image.error());
-    return unfold(std::move(*data), std::move(*image));
+    return unfold(*data, std::move(*image));
 }
 
 std::size_t Pager::publish(std::size_t most_blocks, std::uint64_t frame) {

@@ -36,7 +36,7 @@ void TileTree::describe(TileNode& node, TileId tile, TileNode* parent) const {
             constexpr double kMetresPerDegree = 111320.0;
             node.texel_to_refine_m = tile_side_deg(tile.depth) / kImageTexels * kMetresPerDegree;
         }
-    } else {
+    } else if (parent != nullptr) {  // roots are always in the database
         node.info = subdivide(parent->info, tile);
     }
     node.bounds = tile_bounds(tile, node.info.height_min_m, node.info.height_max_m);

@@ -155,8 +155,9 @@ MosaicLayer::Content MosaicLayer::content(const terrain::GeographicExtent& exten
     constexpr int kProbes = 5;
     std::array<LatLon, kProbes * kProbes> places;
     for (int i = 0; i < kProbes * kProbes; ++i) {
-        const double across = static_cast<double>(i % kProbes) / (kProbes - 1);
-        const double up = static_cast<double>(i / kProbes) / (kProbes - 1);
+        const int column = i % kProbes, row = i / kProbes;
+        const double across = static_cast<double>(column) / (kProbes - 1);
+        const double up = static_cast<double>(row) / (kProbes - 1);
         places[static_cast<std::size_t>(i)] = {std::lerp(extent.south_deg, extent.north_deg, up),
                                                std::lerp(extent.west_deg, extent.east_deg, across)};
     }
