@@ -43,7 +43,7 @@ struct FrameSettings {
 };
 
 struct EnvironmentSettings {
-    double visibility_m = 100000.0;    ///< 100..1000000
+    double visibility_m = 100000.0;   ///< 100..1000000
     double sun_azimuth_deg = 150.0;   ///< 0..360 from true north
     double sun_elevation_deg = 32.0;  ///< -90..90
 };

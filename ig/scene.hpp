@@ -22,7 +22,7 @@ namespace eyepoint::ig {
 struct SceneOptions {
     std::string lod_method = "regular";  ///< see terrain::lod_method_names()
     double tau_px = 2.0;                 ///< tolerance, pixels
-    double visibility_m = 100000.0;       ///< meteorological: contrast 2% at this distance, at sea level
+    double visibility_m = 100000.0;      ///< meteorological: contrast 2% at this distance, at sea level
     double sun_azimuth_deg = 150.0;      ///< from true north, at the eye
     double sun_elevation_deg = 32.0;     ///< above the horizon, at the eye
     unsigned loader_threads = 1;

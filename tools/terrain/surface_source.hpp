@@ -1,4 +1,5 @@
-/// What the compiler builds a database from: functions of place, whatever lies behind them (files, a formula).
+/// What the compiler builds a database from: functions of place, whatever lies behind them (files, a
+/// formula).
 #pragma once
 
 #include <array>
@@ -36,7 +37,8 @@ struct SurfaceSample {
 class ElevationSource {
   public:
     virtual ~ElevationSource() = default;
-    /// Whether the source has detail inside the tile that a tile one less deep would miss: then the tile is made.
+    /// Whether the source has detail inside the tile that a tile one less deep would miss: then the tile is
+    /// made.
     [[nodiscard]] virtual bool has_detail(terrain::TileId tile) const = 0;
     /// Samples in row order from the south-west; out.size() == rows * columns.
     virtual void sample(const Lattice& lattice, std::span<SurfaceSample> out) const = 0;
