@@ -1,7 +1,12 @@
 #include "terrain/lod/regular.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+
+#include <glm/geometric.hpp>
+
+#include "terrain/geodesy/earth.hpp"
 
 namespace eyepoint::terrain {
 
@@ -44,6 +49,22 @@ Edge opposite(Edge edge) {
             return Edge::South;
     }
     return edge;
+}
+
+/// How far below the true surface a drawn mesh may lie between the eye and its horizon, metres: tau pixels at
+/// the horizon's distance, twice over for the strips beside thinned edges. Only what an Earth lower by this
+/// hides is hidden by drawn meshes: else the sky would show between the last one before the horizon and a
+/// mountain behind it.
+double mesh_below_surface_m(const LodView& view, double lowest_height_m) {
+    const double eye_radius_m = glm::length(view.eye), surface_radius_m = kPolarRadiusM + lowest_height_m;
+    double below_m = 0.0;
+    for (int i = 0; i < 3;
+         ++i) {  // the lower Earth's horizon is farther: three rounds settle it to the metre
+        const double radius_m = surface_radius_m - below_m;
+        const double horizon_m = std::sqrt(std::max(eye_radius_m * eye_radius_m - radius_m * radius_m, 0.0));
+        below_m = 2.0 * view.tau_px / view.kappa_px * horizon_m;
+    }
+    return std::min(below_m, 0.5 * surface_radius_m);
 }
 
 }  // namespace
@@ -106,7 +127,9 @@ struct RegularLod::Frame {
 };
 
 const Selection& RegularLod::select(const LodView& view, TileTree& tree, std::uint64_t frame_number) {
-    Frame frame{view, tree, frame_number, HorizonOccluder{view.eye, tree.lowest_height_m()}};
+    const double lowest_m = tree.lowest_height_m();
+    const HorizonOccluder horizon{view.eye, lowest_m - mesh_below_surface_m(view, lowest_m)};
+    Frame frame{view, tree, frame_number, horizon};
     selection_.draws.clear();
     selection_.wishes.clear();
     selection_.triangles = 0;
