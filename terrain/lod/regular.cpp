@@ -18,6 +18,16 @@ constexpr int kBlockHalvings = 5;
 /// A picture's texel may cover so many pixels before a finer picture is wanted.
 constexpr double kMostPixelsATexel = 2.0;
 
+/// How far, in pixels, the drawn horizon of a bare Earth may lie from the true one, for the mesh's part.
+constexpr double kHorizonPx = 0.45;
+
+/// Height of the Earth's arc over the diagonal of a cell of a level, at the equator, where it is greatest, metres.
+double sagitta_m(std::uint32_t depth, int level) {
+    constexpr double kRadians = 3.14159265358979323846 / 180.0;
+    const double chord_m = post_spacing_deg(depth) * (1 << level) * kRadians * kEquatorialRadiusM;
+    return 2.0 * chord_m * chord_m / (8.0 * kEquatorialRadiusM);
+}
+
 int resolution(const TileNode& node) {
     return static_cast<int>(node.tile.depth) + kBlockHalvings - node.mark.level;
 }
@@ -82,10 +92,24 @@ struct RegularLod::Frame {
         return std::none_of(view.sides.begin(), view.sides.end(), beyond) && !horizon.hides(bounds);
     }
 
-    /// Screen error of a geometric error of this tile, pixels.
+    /// Screen error of a level of this tile, pixels: of its shape, or of the curve of the Earth alone,
+    /// whichever asks for more. The curve is held to kHorizonPx whatever tau is, as far as it is seen from
+    /// the side: the horizon is the one line in the picture that is known exactly.
     [[nodiscard]] double error_px(const TileNode& node, int level) const {
-        return view.kappa_px * node.info.delta_m[static_cast<std::size_t>(level)] /
-               std::max(node.mark.distance_m, view.near_m);
+        const double px_a_metre = view.kappa_px / std::max(node.mark.distance_m, view.near_m);
+        const double shape_px = px_a_metre * node.info.delta_m[static_cast<std::size_t>(level)];
+        const double curve_px = px_a_metre * sagitta_m(node.tile.depth, level) * seen_from_side(node.bounds);
+        return std::max(shape_px, curve_px * view.tau_px / kHorizonPx);
+    }
+
+    /// Cosine of the elevation at which the eye sees a tile's middle, as measured there; 1 when the tile is
+    /// too near to have one.
+    [[nodiscard]] double seen_from_side(const TileBounds& bounds) const {
+        const glm::dvec3 away = bounds.centre - view.eye;
+        const double distance = glm::length(away);
+        if (distance < 4.0 * glm::length(bounds.half_m)) return 1.0;
+        const double steepness = glm::dot(away, bounds.axes[2]) / distance;
+        return std::sqrt(std::max(1.0 - steepness * steepness, 0.0));
     }
 
     /// Too coarse in shape, or its picture too coarse where there is a finer one.

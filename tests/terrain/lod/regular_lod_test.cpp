@@ -151,11 +151,10 @@ TEST(RegularLod, ASmallerToleranceDrawsMore) {
     std::uint64_t before = 0;
     for (const double tau_px : {8.0, 2.0, 0.5}) {
         const std::uint64_t triangles =
-            flight.settle(look(eye, enu * glm::dvec3{0.0, 1.0, -0.15}, enu[2], tau_px)).triangles;
+            flight.settle(look(eye, enu * glm::dvec3{0.0, 1.0, -0.7}, enu[2], tau_px)).triangles;
         EXPECT_GT(triangles, before) << "tau " << tau_px;
         before = triangles;
     }
-    EXPECT_GT(before, 20000U);
 }
 
 TEST(RegularLod, EveryDrawnBlockIsFineEnoughOnceLoaded) {
