@@ -12,6 +12,8 @@
 ///      line is sky, so terrain on all sides of it would need a gap between peaks less than two pixels wide.
 ///      A step of kUpwardStepsPx is enough, as a hole of any size has an upper end.
 ///   3. Sentinel pixels that touch one another lead to the picture's border: the sky is never an island.
+/// Not found: a slit open to the sky that runs straight up the picture, above the horizon of the lowest
+/// ground; it looks like a gap between two peaks.
 #pragma once
 
 #include <string>
