@@ -21,7 +21,8 @@ constexpr double kMostPixelsATexel = 2.0;
 /// How far, in pixels, the drawn horizon of a bare Earth may lie from the true one, for the mesh's part.
 constexpr double kHorizonPx = 0.45;
 
-/// Height of the Earth's arc over the diagonal of a cell of a level, at the equator, where it is greatest, metres.
+/// Height of the Earth's arc over the diagonal of a cell of a level, at the equator, where it is greatest,
+/// metres.
 double sagitta_m(std::uint32_t depth, int level) {
     constexpr double kRadians = 3.14159265358979323846 / 180.0;
     const double chord_m = post_spacing_deg(depth) * (1 << level) * kRadians * kEquatorialRadiusM;
@@ -226,12 +227,21 @@ bool RegularLod::have_children(const Frame& frame, TileNode& node, double priori
     return loaded;
 }
 
-/// Sees that a tile's blocks are loaded down to its own depth, one depth a frame. The neighbours of what is
-/// split are kept ready though they are out of view: when the eye turns, a coarse neighbour that cannot be
-/// split at once would hold back, tile by tile, everything finer beside it.
+/// Sees that a tile could enter the cut at once: the blocks down to its own depth are loaded, and so is
+/// whatever the splits on the way would force on their neighbours, and these on theirs. What is split keeps
+/// its neighbours ready in this way though they are out of view: when the eye turns, a coarse neighbour that
+/// cannot be split at once would hold back, tile by tile, everything finer beside it. Each tile is looked
+/// after once a frame.
 void RegularLod::keep_ready(const Frame& frame, TileId tile, double priority) {
     TileNode* node = &frame.tree.roots()[ancestor(tile, 0).x];
-    while (node->tile.depth < tile.depth && have_children(frame, *node, priority)) {
+    while (node->tile.depth < tile.depth) {
+        if (node->ready_frame != frame.number) {
+            if (!have_children(frame, *node, priority)) return;
+            node->ready_frame = frame.number;
+            for (const Edge edge : kEdges) {
+                if (const auto beside = neighbour(node->tile, edge)) keep_ready(frame, *beside, priority);
+            }
+        }
         node = &(*node->children)[static_cast<std::size_t>(quadrant(ancestor(tile, node->tile.depth + 1)))];
     }
 }

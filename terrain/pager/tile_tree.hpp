@@ -35,6 +35,7 @@ struct TileNode {
     std::shared_ptr<const Block> block;  ///< nullptr until loaded
     std::uint64_t used_frame = 0;        ///< the last frame that looked at it
     std::uint64_t wished_frame = 0;      ///< the last frame that asked for its block
+    std::uint64_t ready_frame = 0;       ///< the last frame that could split it at once
     LodMark mark;
     std::unique_ptr<std::array<TileNode, 4>> children;  ///< nullptr until looked at
 };
