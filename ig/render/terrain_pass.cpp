@@ -98,6 +98,7 @@ void TerrainPass::upload(const terrain::Selection& selection, std::uint64_t fram
         Variant& variant =
             variants_[(block.has_water ? kWater : 0) + (records_[slot].image.x >= 0.0F ? kImage : 0)];
         variant.counts.push_back(static_cast<GLsizei>(draw.indices.count));
+        // NOLINTNEXTLINE(performance-no-int-to-ptr): OpenGL takes offsets into a buffer as pointers.
         variant.offsets.push_back(reinterpret_cast<const void*>(draw.indices.first * sizeof(std::uint16_t)));
         variant.base_vertices.push_back(static_cast<GLint>(slot * terrain::kBlockVertices));
     }
