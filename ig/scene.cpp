@@ -49,7 +49,6 @@ class TerrainScene final : public Scene {
     void warm_up(const View& view) override;
     FrameStatistics draw(const View& view) override;
     std::uint64_t load_all(const View& view) override;
-    void set_options(const SceneOptions& options) override { options_ = options; }
     std::vector<std::string> take_faults() override { return pager_->take_faults(); }
 
   private:

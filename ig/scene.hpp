@@ -46,8 +46,6 @@ class Scene {
     /// pictures and virtual time. Returns the number of blocks loaded.
     virtual std::uint64_t load_all(const View& view) = 0;
 
-    virtual void set_options(const SceneOptions& options) = 0;
-
     /// Sentences about tiles that could not be read since the last call, each tile once; an ancestor is drawn
     /// there.
     [[nodiscard]] virtual std::vector<std::string> take_faults() = 0;
