@@ -35,6 +35,11 @@ struct NodeInfo {
     std::array<float, kBlockLevels> delta_m{};
     bool has_children = false;  ///< all four or none
     bool has_image = false;
+    /// Levels (terrain/lod/error_level.hpp) that the tile's nested mesh has: its finest, bare_level(depth) where it has
+    /// no children, and its coarsest, which is its parent's finest (kLastLevel for a root). Finer ones are its
+    /// children's.
+    std::uint8_t first_level = 0;
+    std::uint8_t last_level = 0;
 };
 
 /// A tile's stored content.
@@ -54,6 +59,41 @@ struct BlockData {
     }
 };
 
+/// Places in a tile, from its south-west corner: so many units a side; a post every kPlaceUnits / kBlockCells.
+inline constexpr int kPlaceUnits = 32768;
+
+/// A tile's nested mesh (docs/lod.md): its finest triangulation, and how each of its vertices goes when the mesh gets
+/// coarser. The triangulation of the first level is the union of the children's at their last level.
+///
+/// Vertices are numbered: first the tile's own posts that are in the mesh, then posts of deeper tiles below it. One
+/// vertex goes at a level d: it is in the meshes of levels below d, and while the level asked for rises from d - 1 to d
+/// it slides, in a straight line, to its target, a vertex of this mesh that is still there at level d. The mesh of a
+/// level is the first one with every vertex that has gone replaced by its target, until none has gone, and the empty
+/// triangles left out.
+struct NestedMesh {
+    /// A vertex at a post of a deeper tile.
+    struct FinePost {
+        std::uint16_t x = 0;  ///< kPlaceUnits a side, from the west
+        std::uint16_t y = 0;  ///< from the south
+        float height_m = 0.0F;
+        auto operator<=>(const FinePost&) const = default;
+    };
+    static constexpr std::uint8_t kStays = 255;  ///< level of a vertex that is in the parent's mesh too
+
+    /// Every own post is a vertex, in the order of BlockData::water, and the triangles are the regular ones, every cell
+    /// split from its south-west to its north-east post: `posts`, `fine_posts` and `triangles` are empty. So in a tile
+    /// without children.
+    bool whole_grid = false;
+    std::vector<std::uint16_t> posts;       ///< row * kBlockPosts + column, rising
+    std::vector<FinePost> fine_posts;       ///< rising in (y, x)
+    std::vector<std::uint16_t> triangles;   ///< of the first level: three vertices each, counterclockwise from above
+    std::vector<std::uint8_t> gone_level;   ///< by vertex: first_level < level <= last_level, or kStays
+    std::vector<std::uint16_t> target;      ///< by vertex; 0 where it stays
+
+    [[nodiscard]] std::size_t vertices() const { return gone_level.size(); }
+    bool operator==(const NestedMesh&) const = default;
+};
+
 /// A tile's picture: kImageTexels^2 RGB triples, row 0 in the south, sRGB.
 struct ImageData {
     TileId tile;
@@ -70,7 +110,7 @@ struct SourceRecord {
 };
 
 struct Manifest {
-    static constexpr int kFormatVersion = 1;
+    static constexpr int kFormatVersion = 2;
     std::string name;
     std::string created_by;       ///< program and version
     double height_step_m = 0.0;   ///< heights are whole multiples of this
@@ -103,6 +143,7 @@ class Database {
 
     /// Reads, checks (checksum) and decodes. On failure: one sentence with file, tile and fault.
     [[nodiscard]] tl::expected<BlockData, std::string> read_block(TileId tile) const;
+    [[nodiscard]] tl::expected<NestedMesh, std::string> read_mesh(TileId tile) const;
     [[nodiscard]] tl::expected<ImageData, std::string> read_image(TileId tile) const;
 
     /// Every tile held, in no particular order.

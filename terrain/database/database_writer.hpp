@@ -24,6 +24,7 @@ class DatabaseWriter {
     struct Tile {
         NodeInfo info;
         const BlockData* block = nullptr;
+        const NestedMesh* mesh = nullptr;
         std::optional<std::span<const std::uint8_t>> image_rgb;  ///< kImageTexels^2 * 3 bytes
     };
 

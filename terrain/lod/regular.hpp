@@ -25,6 +25,7 @@ namespace eyepoint::terrain {
 class RegularLod final : public LodMethod {
   public:
     [[nodiscard]] std::string_view name() const override { return "regular"; }
+    [[nodiscard]] MeshKind mesh_kind() const override { return MeshKind::Grid; }
     [[nodiscard]] std::span<const std::uint16_t> indices() const override { return meshes_.indices(); }
     [[nodiscard]] const Selection& select(const LodView& view, TileTree& tree, std::uint64_t frame) override;
 

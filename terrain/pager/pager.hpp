@@ -20,6 +20,7 @@ namespace eyepoint::terrain {
 
 struct PagerOptions {
     unsigned threads = 1;
+    MeshKind mesh = MeshKind::Grid;  ///< what blocks are unfolded to
     /// Loaded blocks kept, bytes. Blocks in use are never dropped, so a view that needs more gets more.
     std::uint64_t cache_bytes = 512ULL << 20;
 };
