@@ -28,12 +28,13 @@ struct BlockVertex {
     std::uint32_t normal = 0;
     /// Low 16 bits: MSL height in quarters of a metre above kSurfaceFloorM; bit 16: water.
     std::uint32_t surface = 0;
-    /// Place in the tile, kPlaceUnits a side: x (east) in the low 16 bits, y (north) in the high ones.
+    /// Place in the tile, kVertexPlaceUnits a side (rounded down): x (east) in the low 16 bits, y (north) in the high.
     std::uint32_t place = 0;
     VertexMotion motion = NestedMesh::kStays << 16 | kNoVertex;
 };
 static_assert(sizeof(BlockVertex) == 40);
 
+inline constexpr std::uint32_t kVertexPlaceUnits = 32768;
 inline constexpr double kSurfaceFloorM = -1500.0;
 inline constexpr double kSurfaceStepM = 0.25;
 inline constexpr int kBlockVertices = kBlockPosts * kBlockPosts;

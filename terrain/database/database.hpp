@@ -59,8 +59,9 @@ struct BlockData {
     }
 };
 
-/// Places in a tile, from its south-west corner: so many units a side; a post every kPlaceUnits / kBlockCells.
-inline constexpr int kPlaceUnits = 32768;
+/// Places in a tile, from its south-west corner: so many units a side, enough for any post of any tile below it to be
+/// whole. A post every kPlaceUnits / kBlockCells.
+inline constexpr std::uint32_t kPlaceUnits = 1U << 30;
 
 /// A tile's nested mesh (docs/lod.md): its finest triangulation, and how each of its vertices goes when the mesh gets
 /// coarser. The triangulation of the first level is the union of the children's at their last level.
@@ -73,8 +74,8 @@ inline constexpr int kPlaceUnits = 32768;
 struct NestedMesh {
     /// A vertex at a post of a deeper tile.
     struct FinePost {
-        std::uint16_t x = 0;  ///< kPlaceUnits a side, from the west
-        std::uint16_t y = 0;  ///< from the south
+        std::uint32_t x = 0;  ///< kPlaceUnits a side, from the west
+        std::uint32_t y = 0;  ///< from the south
         float height_m = 0.0F;
         auto operator<=>(const FinePost&) const = default;
     };
@@ -87,7 +88,9 @@ struct NestedMesh {
     std::vector<std::uint16_t> posts;       ///< row * kBlockPosts + column, rising
     std::vector<FinePost> fine_posts;       ///< rising in (y, x)
     std::vector<std::uint16_t> triangles;   ///< of the first level: three vertices each, counterclockwise from above
-    std::vector<std::uint8_t> gone_level;   ///< by vertex: first_level < level <= last_level, or kStays
+    /// By vertex: first_level <= level <= last_level, or kStays. At first_level: never there (on the edge of a whole
+    /// grid beside a coarser leaf).
+    std::vector<std::uint8_t> gone_level;
     std::vector<std::uint16_t> target;      ///< by vertex; 0 where it stays
 
     [[nodiscard]] std::size_t vertices() const { return gone_level.size(); }
