@@ -77,7 +77,7 @@ class Compilation {
     }
 
     tl::expected<void, std::string> put(const BlockData& data, const NodeInfo& info) {
-        DatabaseWriter::Tile tile{info, &data, std::nullopt};
+        DatabaseWriter::Tile tile{info, &data, nullptr, std::nullopt};
         std::vector<std::uint8_t> rgb;
         if (request_.imagery != nullptr &&
             (data.tile.depth == 0 || request_.imagery->has_detail(data.tile))) {
