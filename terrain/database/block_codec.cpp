@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <zstd.h>
 
+#include "terrain/database/byte_stream.hpp"
 #include "terrain/database/interpolate.hpp"
 #include "terrain/database/little_endian.hpp"
 
@@ -21,11 +22,6 @@ constexpr std::size_t kMaxPayload = kHeaderBytes + kMaxPlanes * kHeights + kWate
 constexpr int kZstdLevel = 9;
 
 enum class Water : std::uint8_t { None = 0, All = 1, Mixed = 2 };
-
-constexpr std::uint32_t zigzag(std::uint32_t value) {
-    return (value << 1) ^ (value >> 31 != 0 ? 0xFFFFFFFFU : 0U);
-}
-constexpr std::uint32_t unzigzag(std::uint32_t value) { return (value >> 1) ^ (0U - (value & 1U)); }
 
 /// The plane through the west, south and south-west neighbours; modulo 2^32, so no input overflows.
 std::uint32_t predict(std::span<const std::uint32_t> heights, std::size_t row, std::size_t column) {

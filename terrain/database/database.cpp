@@ -14,6 +14,7 @@
 #include "terrain/database/durable_file.hpp"
 #include "terrain/database/image_codec.hpp"
 #include "terrain/database/manifest_json.hpp"
+#include "terrain/database/mesh_codec.hpp"
 #include "terrain/database/shard.hpp"
 
 namespace eyepoint::terrain {
@@ -24,6 +25,7 @@ struct Database::Content {
     struct Node {
         NodeInfo info;
         StoredRange block;
+        StoredRange mesh;
         StoredRange image;
     };
     fs::path folder;
@@ -130,7 +132,7 @@ tl::expected<Database, std::string> Database::open(const fs::path& folder) {
         if (!entries) return tl::unexpected(entries.error());
         const fs::path path = folder / shard_path(root);
         for (const ShardEntry& entry : *entries) {
-            nodes.emplace(entry.tile, Content::Node{entry.info, entry.block, entry.image});
+            nodes.emplace(entry.tile, Content::Node{entry.info, entry.block, entry.mesh, entry.image});
             if (entry.info.has_image) ++images;
             const bool children_elsewhere = (entry.tile.depth + 1) % kShardDepths == 0;
             for (int i = 0; entry.info.has_children && children_elsewhere && i < 4; ++i) {
@@ -181,6 +183,23 @@ tl::expected<BlockData, std::string> Database::read_block(TileId tile) const {
     return block;
 }
 
+tl::expected<NestedMesh, std::string> Database::read_mesh(TileId tile) const {
+    const fs::path path = content_->folder / shard_path(shard_root(tile));
+    const auto found = content_->nodes.find(tile);
+    if (found == content_->nodes.end() || found->second.mesh.size == 0) {
+        return tl::unexpected(fmt::format("{}: the database holds no mesh of {}; {}", folder().string(),
+                                          name_of(tile), kRebuild));
+    }
+    const Content::Node& node = found->second;
+    auto mesh = read_checked(path, node.mesh).and_then([&](const std::vector<std::uint8_t>& bytes) {
+        return decode_mesh(bytes, node.info.first_level, node.info.last_level,
+                           content_->manifest.height_step_m);
+    });
+    if (!mesh)
+        return tl::unexpected(fault_in(path, fmt::format("mesh of {}: {}", name_of(tile), mesh.error())));
+    return mesh;
+}
+
 tl::expected<ImageData, std::string> Database::read_image(TileId tile) const {
     const fs::path path = content_->folder / shard_path(shard_root(tile));
     const auto found = content_->nodes.find(tile);
@@ -195,6 +214,16 @@ tl::expected<ImageData, std::string> Database::read_image(TileId tile) const {
     if (!image)
         return tl::unexpected(fault_in(path, fmt::format("image of {}: {}", name_of(tile), image.error())));
     return image;
+}
+
+StoredBytes Database::stored_bytes() const {
+    StoredBytes bytes;
+    for (const auto& [tile, node] : content_->nodes) {
+        bytes.blocks += node.block.size;
+        bytes.meshes += node.mesh.size;
+        bytes.images += node.image.size;
+    }
+    return bytes;
 }
 
 std::vector<TileId> Database::tiles() const {

@@ -126,6 +126,13 @@ struct Manifest {
     std::vector<SourceRecord> sources;
 };
 
+/// What the tiles take on disk, compressed, without indexes.
+struct StoredBytes {
+    std::uint64_t blocks = 0;
+    std::uint64_t meshes = 0;
+    std::uint64_t images = 0;
+};
+
 /// A database opened for reading. Always holds both root tiles, and a tile's four children all or none.
 /// Thread use: const use is safe from any thread (reads are pread).
 class Database {
@@ -148,6 +155,8 @@ class Database {
     [[nodiscard]] tl::expected<BlockData, std::string> read_block(TileId tile) const;
     [[nodiscard]] tl::expected<NestedMesh, std::string> read_mesh(TileId tile) const;
     [[nodiscard]] tl::expected<ImageData, std::string> read_image(TileId tile) const;
+
+    [[nodiscard]] StoredBytes stored_bytes() const;
 
     /// Every tile held, in no particular order.
     [[nodiscard]] std::vector<TileId> tiles() const;

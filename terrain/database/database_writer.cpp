@@ -19,6 +19,7 @@
 #include "terrain/database/durable_file.hpp"
 #include "terrain/database/image_codec.hpp"
 #include "terrain/database/manifest_json.hpp"
+#include "terrain/database/mesh_codec.hpp"
 #include "terrain/database/shard.hpp"
 
 namespace eyepoint::terrain {
@@ -168,6 +169,7 @@ tl::expected<void, std::string> DatabaseWriter::State::finish_shard(TileId root,
     };
     for (ShardEntry& entry : shard.entries) {
         lay_down(entry.block);
+        lay_down(entry.mesh);
         lay_down(entry.image);
     }
     return write_durably(path, {encode_shard_index(root, shard.entries), body});
@@ -226,9 +228,19 @@ tl::expected<DatabaseWriter, std::string> DatabaseWriter::create(const fs::path&
 }
 
 tl::expected<void, std::string> DatabaseWriter::put(const Tile& tile) {
-    ShardEntry entry{tile.block->tile, tile.info, {}, {}};
+    ShardEntry entry{tile.block->tile, tile.info, {}, {}, {}};
     entry.info.has_image = tile.image_rgb.has_value();
     const auto block = encode_block(*tile.block, state_->height_step_m);
+    std::vector<std::uint8_t> mesh;
+    if (tile.mesh != nullptr) {
+        auto encoded =
+            encode_mesh(*tile.mesh, tile.info.first_level, tile.info.last_level, state_->height_step_m);
+        if (!encoded) {
+            return tl::unexpected(fmt::format("mesh of tile {}/{}-{}: {}", entry.tile.depth, entry.tile.x,
+                                              entry.tile.y, encoded.error()));
+        }
+        mesh = std::move(*encoded);
+    }
     std::vector<std::uint8_t> image;
     if (tile.image_rgb) {
         auto encoded = encode_image(*tile.image_rgb);
@@ -237,13 +249,17 @@ tl::expected<void, std::string> DatabaseWriter::put(const Tile& tile) {
     }
     const std::lock_guard guard{state_->mutex};
     GatheredShard& shard = state_->shards[shard_root(entry.tile)];
-    const std::uint64_t offset = shard.spilled + shard.pending.size();
-    entry.block = {offset, static_cast<std::uint32_t>(block.size()), checksum(block)};
-    entry.image = {offset + block.size(), static_cast<std::uint32_t>(image.size()), checksum(image)};
+    const auto gather = [&](const std::vector<std::uint8_t>& bytes) {
+        const StoredRange range{shard.spilled + shard.pending.size(),
+                                static_cast<std::uint32_t>(bytes.size()), checksum(bytes)};
+        shard.pending.insert(shard.pending.end(), bytes.begin(), bytes.end());
+        state_->pending_bytes += bytes.size();
+        return range;
+    };
+    entry.block = gather(block);
+    entry.mesh = gather(mesh);
+    entry.image = gather(image);
     shard.entries.push_back(entry);
-    shard.pending.insert(shard.pending.end(), block.begin(), block.end());
-    shard.pending.insert(shard.pending.end(), image.begin(), image.end());
-    state_->pending_bytes += block.size() + image.size();
     return state_->pending_bytes > kMaxPendingBytes ? state_->spill() : tl::expected<void, std::string>{};
 }
 

@@ -24,7 +24,7 @@ class DatabaseWriter {
     struct Tile {
         NodeInfo info;
         const BlockData* block = nullptr;
-        const NestedMesh* mesh = nullptr;
+        const NestedMesh* mesh = nullptr;                        ///< nullptr: none is stored
         std::optional<std::span<const std::uint8_t>> image_rgb;  ///< kImageTexels^2 * 3 bytes
     };
 
@@ -36,6 +36,7 @@ class DatabaseWriter {
     DatabaseWriter(DatabaseWriter&&) noexcept;
     DatabaseWriter& operator=(DatabaseWriter&&) noexcept;
 
+    /// On failure: one sentence (a mesh or picture that is not whole, or the disk full).
     [[nodiscard]] tl::expected<void, std::string> put(const Tile& tile);
     [[nodiscard]] tl::expected<void, std::string> commit(const Manifest& manifest);
 

@@ -8,6 +8,7 @@
 #include <xxhash.h>
 
 #include "terrain/database/little_endian.hpp"
+#include "terrain/lod/error_level.hpp"
 
 namespace eyepoint::terrain {
 
@@ -17,6 +18,8 @@ constexpr std::array<std::uint8_t, 8> kMagic{'E', 'Y', 'E', 'S', 'H', 'A', 'R', 
 constexpr std::size_t kChecksumAt = 32;
 constexpr std::uint32_t kHasChildren = 1;
 constexpr std::uint32_t kHasImage = 2;
+constexpr int kFirstLevelShift = 8;
+constexpr int kLastLevelShift = 16;
 
 /// Of everything in the header and the index but the field that holds it.
 std::uint64_t index_checksum(std::span<const std::uint8_t> bytes) {
@@ -35,11 +38,14 @@ void append_entry(std::vector<std::uint8_t>& bytes, const ShardEntry& entry) {
     append_le(bytes, entry.tile.depth);
     append_le(bytes, entry.tile.x);
     append_le(bytes, entry.tile.y);
-    append_le(bytes, (entry.info.has_children ? kHasChildren : 0U) | (entry.info.has_image ? kHasImage : 0U));
+    append_le(bytes, (entry.info.has_children ? kHasChildren : 0U) | (entry.info.has_image ? kHasImage : 0U) |
+                         std::uint32_t{entry.info.first_level} << kFirstLevelShift |
+                         std::uint32_t{entry.info.last_level} << kLastLevelShift);
     append_le(bytes, entry.info.height_min_m);
     append_le(bytes, entry.info.height_max_m);
     for (const float delta_m : entry.info.delta_m) append_le(bytes, delta_m);
     append_range(bytes, entry.block);
+    append_range(bytes, entry.mesh);
     append_range(bytes, entry.image);
 }
 
@@ -55,13 +61,16 @@ ShardEntry load_entry(std::span<const std::uint8_t> bytes, std::size_t at) {
     const auto flags = load_le<std::uint32_t>(bytes, at + 12);
     entry.info.has_children = (flags & kHasChildren) != 0;
     entry.info.has_image = (flags & kHasImage) != 0;
+    entry.info.first_level = static_cast<std::uint8_t>(flags >> kFirstLevelShift);
+    entry.info.last_level = static_cast<std::uint8_t>(flags >> kLastLevelShift);
     entry.info.height_min_m = load_float_le(bytes, at + 16);
     entry.info.height_max_m = load_float_le(bytes, at + 20);
     for (std::size_t level = 0; level < kBlockLevels; ++level) {
         entry.info.delta_m[level] = load_float_le(bytes, at + 24 + 4 * level);
     }
     entry.block = load_range(bytes, at + 48);
-    entry.image = load_range(bytes, at + 68);
+    entry.mesh = load_range(bytes, at + 68);
+    entry.image = load_range(bytes, at + 88);
     return entry;
 }
 
@@ -69,7 +78,8 @@ bool is_sound(const NodeInfo& info) {
     const bool finite =
         std::isfinite(info.height_min_m) && std::isfinite(info.height_max_m) &&
         std::ranges::all_of(info.delta_m, [](float delta_m) { return std::isfinite(delta_m); });
-    return finite && info.height_min_m <= info.height_max_m && info.delta_m[0] >= 0.0F &&
+    const bool levels = info.first_level <= info.last_level && info.last_level <= kLastLevel;
+    return finite && levels && info.height_min_m <= info.height_max_m && info.delta_m[0] >= 0.0F &&
            std::ranges::is_sorted(info.delta_m);
 }
 
@@ -147,7 +157,8 @@ tl::expected<std::vector<ShardEntry>, std::string> decode_shard_index(
         const ShardEntry entry = load_entry(header_and_index, kShardHeaderBytes + i * kShardEntryBytes);
         const bool ordered = entries.empty() || key(entries.back().tile) < key(entry.tile);
         const bool chained = entry.block.offset == end && entry.block.size > 0 &&
-                             entry.image.offset == end + entry.block.size &&
+                             entry.mesh.offset == end + entry.block.size &&
+                             entry.image.offset == entry.mesh.offset + entry.mesh.size &&
                              (entry.image.size > 0) == entry.info.has_image;
         if (!is_in_shard(entry.tile, root) || !ordered || !chained || !is_sound(entry.info)) {
             return tl::unexpected(fmt::format("entry {} of its index is not valid", i));

@@ -18,7 +18,7 @@ inline constexpr std::uint32_t kShardDepths = 5;
 /// Tiles of a full shard: 1 + 4 + 16 + 64 + 256.
 inline constexpr std::uint32_t kShardTiles = 341;
 inline constexpr std::size_t kShardHeaderBytes = 40;
-inline constexpr std::size_t kShardEntryBytes = 88;
+inline constexpr std::size_t kShardEntryBytes = 108;
 
 /// Bytes of a shard file.
 struct StoredRange {
@@ -31,6 +31,7 @@ struct ShardEntry {
     TileId tile;
     NodeInfo info;
     StoredRange block;
+    StoredRange mesh;   ///< size 0 where the tile has none
     StoredRange image;  ///< size 0 where the tile has none
 };
 

@@ -5,6 +5,11 @@ target_sources(eyepoint_terrain PRIVATE
     database/durable_file.cpp
     database/image_codec.cpp
     database/manifest_json.cpp
+    database/mesh_codec.cpp
+    database/mesh_gates.cpp
+    database/mesh_place_codec.cpp
+    database/mesh_places.cpp
+    database/mesh_structure.cpp
     database/shard.cpp
     database/virtual_tile.cpp
 )

@@ -1,6 +1,7 @@
 #include "terrain/database/virtual_tile.hpp"
 
 #include "terrain/database/interpolate.hpp"
+#include "terrain/lod/error_level.hpp"
 
 namespace eyepoint::terrain {
 
@@ -66,13 +67,29 @@ BlockData subdivide(const BlockData& parent, int quadrant, double height_step_m)
     return result;
 }
 
-NodeInfo subdivide(const NodeInfo& parent, TileId /*child*/) {
+NodeInfo subdivide(const NodeInfo& parent, TileId child) {
     NodeInfo result = parent;
     result.has_children = false;
     result.has_image = false;
+    result.first_level = bare_level(child.depth);
+    result.last_level = parent.first_level;
     for (std::size_t level = kBlockLevels - 1; level > 0; --level)
         result.delta_m[level] = parent.delta_m[level - 1];
     result.delta_m[0] = parent.delta_m[0] / 4.0F;
+    return result;
+}
+
+NestedMesh virtual_mesh(std::uint8_t last_level) {
+    NestedMesh result;
+    result.whole_grid = true;
+    for (int row = 0; row < kBlockPosts; ++row) {
+        for (int column = 0; column < kBlockPosts; ++column) {
+            const bool stays = row % 2 == 0 && column % 2 == 0;
+            const int target = row / 2 * 2 * kBlockPosts + column / 2 * 2;
+            result.gone_level.push_back(stays ? NestedMesh::kStays : last_level);
+            result.target.push_back(static_cast<std::uint16_t>(stays ? 0 : target));
+        }
+    }
     return result;
 }
 

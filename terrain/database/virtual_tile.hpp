@@ -20,7 +20,12 @@ namespace eyepoint::terrain {
 /// rounding of virtual heights (half a height step a generation) is not counted. Level l of the child has the
 /// posts of the parent's level l-1, and its own level 0 a quarter of the parent's error, because the second
 /// differences that make it (of the ellipsoid, and of the normal along a slope) are of cells of half the
-/// side.
+/// side. Levels: from bare_level of the child's depth to the parent's first, which must not be 0.
 [[nodiscard]] NodeInfo subdivide(const NodeInfo& parent, TileId child);
+
+/// Nested mesh of any virtual tile: the whole grid, of which the posts that the parent does not have (odd row
+/// or column) all go at the tile's last level, an edge's along the edge, the others to the south-west end of
+/// their half of a diagonal.
+[[nodiscard]] NestedMesh virtual_mesh(std::uint8_t last_level);
 
 }  // namespace eyepoint::terrain

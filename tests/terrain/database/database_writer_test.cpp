@@ -24,7 +24,7 @@ TEST(DatabaseWriter, LeavesNothingWithoutCommit) {
         auto writer = DatabaseWriter::create(scratch.path() / "db", 1.0 / 16.0);
         ASSERT_TRUE(writer.has_value()) << writer.error();
         const BlockData block = rough_block({0, 0, 0});
-        ASSERT_TRUE(writer->put({wide_node(), &block, std::nullopt}).has_value());
+        ASSERT_TRUE(writer->put({wide_node(), &block, nullptr, std::nullopt}).has_value());
         EXPECT_FALSE(fs::exists(scratch.path() / "db"));
     }
     EXPECT_EQ(entries_in(scratch.path()), 0U);
@@ -49,7 +49,7 @@ TEST(DatabaseWriter, SameContentInAnotherOrderGivesTheSameBytes) {
         for (const BlockData& block : blocks) {
             NodeInfo info = wide_node();
             info.has_children = block.tile == TileId{0, 0, 0};
-            ASSERT_TRUE(writer->put({info, &block, std::nullopt}).has_value());
+            ASSERT_TRUE(writer->put({info, &block, nullptr, std::nullopt}).has_value());
         }
         Manifest manifest = small_manifest();
         manifest.tiles = 6;
@@ -103,7 +103,7 @@ TEST(DatabaseWriter, AKilledWriterLeavesNoDatabaseAndTheNextOneClearsUp) {
     if (victim == 0) {
         auto writer = DatabaseWriter::create(scratch.path() / "db", 1.0 / 16.0);
         const BlockData block = rough_block({0, 0, 0});
-        if (writer) (void)writer->put({wide_node(), &block, std::nullopt});
+        if (writer) (void)writer->put({wide_node(), &block, nullptr, std::nullopt});
         ::raise(SIGKILL);
     }
     int status = 0;

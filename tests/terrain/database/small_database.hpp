@@ -84,8 +84,8 @@ inline void write_two_roots(const std::filesystem::path& folder) {
     ASSERT_TRUE(writer.has_value()) << writer.error();
     const BlockData west = rough_block({0, 0, 0}), east = rough_block({0, 1, 0});
     const auto rgb = grey_slope();
-    ASSERT_TRUE(writer->put({wide_node(), &east, std::nullopt}).has_value());
-    ASSERT_TRUE(writer->put({wide_node(), &west, rgb}).has_value());
+    ASSERT_TRUE(writer->put({wide_node(), &east, nullptr, std::nullopt}).has_value());
+    ASSERT_TRUE(writer->put({wide_node(), &west, nullptr, rgb}).has_value());
     const auto committed = writer->commit(small_manifest());
     ASSERT_TRUE(committed.has_value()) << committed.error();
 }

@@ -1,0 +1,249 @@
+#include "terrain/database/mesh_gates.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <unordered_map>
+
+#include "terrain/database/mesh_structure.hpp"
+
+namespace eyepoint::terrain {
+
+namespace {
+
+using Vertex = std::uint16_t;
+using Corners = std::array<Vertex, 3>;
+
+struct Gate {
+    Vertex from = 0;  ///< the triangle looked for lies to the left
+    Vertex to = 0;
+};
+
+/// Third corners that are ranked: the nearest to where the corner of an equilateral triangle would be.
+constexpr std::size_t kMaxCandidates = 12;
+
+std::int64_t cross(Place origin, Place a, Place b) {
+    return std::int64_t{a.x - origin.x} * (b.y - origin.y) - std::int64_t{a.y - origin.y} * (b.x - origin.x);
+}
+std::int64_t dot(Place origin, Place a, Place b) {
+    return std::int64_t{a.x - origin.x} * (b.x - origin.x) + std::int64_t{a.y - origin.y} * (b.y - origin.y);
+}
+
+/// Products of two areas: below 2^124.
+__extension__ using Wide = __int128;
+
+struct Candidate {
+    Vertex vertex = 0;
+    std::int64_t cross = 0;  ///< of the directions to the gate's ends; above 0
+    std::int64_t dot = 0;
+    /// Sees the gate under the greater angle: its cotangent, dot / cross, is less.
+    [[nodiscard]] bool before(const Candidate& other) const {
+        const Wide ours = Wide{dot} * other.cross, theirs = Wide{other.dot} * cross;
+        return ours != theirs ? ours < theirs : vertex < other.vertex;
+    }
+};
+
+/// The triangulation as far as it has grown; the writer's and the reader's are alike at every gate.
+class Front {
+  public:
+    explicit Front(std::span<const Place> places)
+        : places_(places), index_(places), first_out_(places.size(), kNone), open_(places.size(), 0) {}
+
+    void add(const Corners& corners) {
+        const auto [a, b, c] = corners;
+        for (const Gate edge : {Gate{a, b}, Gate{b, c}, Gate{c, a}}) {
+            const bool closes = has(edge.to, edge.from);
+            if (!closes && !is_border(edge)) {
+                ++open_[edge.from], ++open_[edge.to];
+                gates_.push_back({edge.to, edge.from});
+            } else if (closes) {
+                --open_[edge.from], --open_[edge.to];
+            }
+            out_.push_back({edge.to, first_out_[edge.from]});
+            first_out_[edge.from] = static_cast<std::uint32_t>(out_.size() - 1);
+        }
+    }
+
+    /// The next gate that is still open.
+    std::optional<Gate> next() {
+        while (next_gate_ < gates_.size()) {
+            const Gate gate = gates_[next_gate_++];
+            if (!has(gate.from, gate.to)) return gate;
+        }
+        return std::nullopt;
+    }
+
+    /// Third corners beyond a gate, the most likely first. Valid until the next call.
+    std::span<const Candidate> candidates(Gate gate) {
+        near_.clear();
+        const Place a = places_[gate.from], b = places_[gate.to];
+        index_.visit_from(apex(a, b), [&](std::size_t vertex) {
+            consider(gate, static_cast<Vertex>(vertex));
+            return near_.size() < kMaxCandidates;
+        });
+        std::ranges::sort(near_, [](const Candidate& x, const Candidate& y) { return x.before(y); });
+        ranked_.clear();
+        for (const Candidate& candidate : near_) {
+            const bool free = std::ranges::none_of(ranked_, [&](const Candidate& inner) {
+                return is_inside(places_[inner.vertex], a, b, places_[candidate.vertex]);
+            });
+            if (free) ranked_.push_back(candidate);
+        }
+        return ranked_;
+    }
+
+  private:
+    static constexpr std::uint32_t kNone = 0xffffffff;
+    struct OutEdge {
+        Vertex to = 0;
+        std::uint32_t next = kNone;
+    };
+
+    [[nodiscard]] bool has(Vertex from, Vertex to) const {
+        for (std::uint32_t at = first_out_[from]; at != kNone; at = out_[at].next) {
+            if (out_[at].to == to) return true;
+        }
+        return false;
+    }
+    [[nodiscard]] bool is_border(Gate edge) const {
+        return (sides_of(places_[edge.from]) & sides_of(places_[edge.to])) != 0;
+    }
+    [[nodiscard]] bool is_closed(Vertex vertex) const {
+        return first_out_[vertex] != kNone && open_[vertex] == 0;
+    }
+
+    static Place apex(Place a, Place b) {
+        const auto half = [](std::int64_t doubled) {
+            return static_cast<std::int32_t>(std::clamp<std::int64_t>(doubled / 2, 0, kPlaceUnits));
+        };
+        return {half(std::int64_t{a.x} + b.x - b.y + a.y), half(std::int64_t{a.y} + b.y + b.x - a.x)};
+    }
+
+    static bool is_inside(Place point, Place a, Place b, Place c) {
+        return cross(a, b, point) >= 0 && cross(b, c, point) >= 0 && cross(c, a, point) >= 0;
+    }
+
+    void consider(Gate gate, Vertex vertex) {
+        const Place corner = places_[vertex];
+        const std::int64_t area = cross(corner, places_[gate.from], places_[gate.to]);
+        if (area <= 0 || is_closed(vertex) || has(gate.to, vertex) || has(vertex, gate.from)) return;
+        near_.push_back({vertex, area, dot(corner, places_[gate.from], places_[gate.to])});
+    }
+
+    std::span<const Place> places_;
+    PlaceIndex index_;
+    std::vector<Gate> gates_;
+    std::size_t next_gate_ = 0;
+    std::vector<OutEdge> out_;  ///< directed edges of the triangles, in lists by where they start
+    std::vector<std::uint32_t> first_out_;
+    std::vector<std::int32_t> open_;  ///< by vertex: its edges with a triangle on one side only
+    std::vector<Candidate> near_;
+    std::vector<Candidate> ranked_;
+};
+
+/// The triangles still to be written, found by any of their edges.
+class Unwritten {
+  public:
+    explicit Unwritten(std::span<const std::uint16_t> triangles) {
+        for (std::size_t i = 0; i < triangles.size(); i += 3) {
+            const Corners corners{triangles[i], triangles[i + 1], triangles[i + 2]};
+            for (std::size_t side = 0; side < 3; ++side)
+                by_edge_.emplace(key(corners[side], corners[(side + 1) % 3]), all_.size());
+            all_.push_back(corners);
+        }
+        written_.resize(all_.size());
+    }
+
+    /// The number of the gate's symbol; the triangle is then written.
+    std::uint8_t take(Gate gate, std::span<const Candidate> candidates, Corners& taken) {
+        const auto [first, last] = by_edge_.equal_range(key(gate.from, gate.to));
+        for (auto at = first; at != last; ++at) {
+            if (written_[at->second]) continue;
+            const Vertex third = opposite(all_[at->second], gate);
+            const auto rank = std::ranges::find(candidates, third, &Candidate::vertex);
+            if (rank == candidates.end()) continue;
+            written_[at->second] = true;
+            taken = {gate.from, gate.to, third};
+            return static_cast<std::uint8_t>(rank - candidates.begin() + 1);
+        }
+        return 0;
+    }
+
+    /// The first that is unwritten; the caller has counted that there is one.
+    Corners take_first() {
+        while (written_[next_]) ++next_;
+        written_[next_] = true;
+        return all_[next_];
+    }
+
+    [[nodiscard]] std::size_t size() const { return all_.size(); }
+
+  private:
+    static std::uint32_t key(Vertex from, Vertex to) { return std::uint32_t{from} << 16 | to; }
+    static Vertex opposite(const Corners& corners, Gate gate) {
+        return *std::ranges::find_if(corners, [&](Vertex v) { return v != gate.from && v != gate.to; });
+    }
+
+    std::vector<Corners> all_;
+    std::vector<bool> written_;
+    std::unordered_multimap<std::uint32_t, std::size_t> by_edge_;
+    std::size_t next_ = 0;
+};
+
+}  // namespace
+
+TriangleStream encode_triangles(std::span<const Place> places, std::span<const std::uint16_t> triangles) {
+    TriangleStream stream;
+    Unwritten unwritten{triangles};
+    Front front{places};
+    for (std::size_t written = 0; written < unwritten.size();) {
+        const auto gate = front.next();
+        Corners corners{};
+        if (!gate) {
+            corners = unwritten.take_first();
+            stream.seeds.insert(stream.seeds.end(), corners.begin(), corners.end());
+        } else {
+            stream.gates.push_back(unwritten.take(*gate, front.candidates(*gate), corners));
+            if (stream.gates.back() == 0) continue;
+        }
+        front.add(corners);
+        ++written;
+    }
+    return stream;
+}
+
+tl::expected<std::vector<std::uint16_t>, std::string> decode_triangles(std::span<const Place> places,
+                                                                       std::size_t triangles,
+                                                                       std::span<const std::uint8_t> gates,
+                                                                       std::span<const std::uint16_t> seeds) {
+    NestedMesh mesh;
+    mesh.triangles.reserve(3 * triangles);
+    Front front{places};
+    while (mesh.triangles.size() < 3 * triangles) {
+        const auto gate = front.next();
+        Corners corners{};
+        if (!gate) {
+            if (seeds.size() < 3) return tl::unexpected(std::string{"triangles are missing"});
+            corners = {seeds[0], seeds[1], seeds[2]};
+            seeds = seeds.subspan(3);
+            if (std::ranges::max(corners) >= places.size() || corners[0] == corners[1] ||
+                corners[1] == corners[2] || corners[2] == corners[0]) {
+                return tl::unexpected(std::string{"a triangle has corners that are no vertices"});
+            }
+        } else {
+            if (gates.empty()) return tl::unexpected(std::string{"triangles are missing"});
+            const std::size_t symbol = gates.front();
+            gates = gates.subspan(1);
+            if (symbol == 0) continue;
+            const auto candidates = front.candidates(*gate);
+            if (symbol > candidates.size()) return tl::unexpected(std::string{"a triangle has no corner"});
+            corners = {gate->from, gate->to, candidates[symbol - 1].vertex};
+        }
+        front.add(corners);
+        mesh.triangles.insert(mesh.triangles.end(), corners.begin(), corners.end());
+    }
+    if (!gates.empty() || !seeds.empty()) return tl::unexpected(std::string{"there are triangles too many"});
+    return canonical_triangles(mesh);
+}
+
+}  // namespace eyepoint::terrain
