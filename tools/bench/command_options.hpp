@@ -12,11 +12,15 @@ namespace eyepoint::tools {
 /// Ends the program with exit code 1 and one line on the standard error.
 [[noreturn]] void fail(const std::string& sentence);
 
+/// --size WIDTHxHEIGHT. `size` outlives the parsing.
+void add_size_option(CLI::App& command, ig::PictureSize& size);
+
 /// --terrain, --size, --tau, --lod, --pictures, --every, --record, --sentinel. `options` outlives the
 /// parsing.
 void add_drawing_options(CLI::App& command, BenchOptions& options, bool terrain_required);
 
 void add_flight_command(CLI::App& program);
 void add_field_command(CLI::App& program);
+void add_measure_command(CLI::App& program);
 
 }  // namespace eyepoint::tools

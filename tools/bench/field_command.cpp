@@ -10,9 +10,6 @@ namespace eyepoint::tools {
 
 namespace {
 
-/// 4097 posts 22.5 m apart; the outer posts of its georeference.
-constexpr PlanarField kRainierField{{-121.9, 46.1, -120.7, 46.93}, 92160.0};
-
 struct FieldRequest {
     BenchOptions drawing;
     std::filesystem::path path;

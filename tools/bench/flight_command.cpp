@@ -4,9 +4,8 @@
 #include <fmt/format.h>
 
 #include "config/settings.hpp"
-#include "net/pcap_file.hpp"
-#include "terrain/geodesy/geoid.hpp"
 #include "tools/bench/command_options.hpp"
+#include "tools/bench/eyes.hpp"
 
 namespace eyepoint::tools {
 
@@ -24,23 +23,14 @@ struct FlightRequest {
 };
 
 void run(const FlightRequest& request) {
-    const auto recording = net::read_pcap(request.flight);
-    if (!recording) fail(recording.error());
-    const auto port = ig::busiest_port(*recording);
-    if (!port) fail(request.flight.string() + " holds no UDP datagram; record one with eyepoint-replay");
-    const auto geoid = terrain::Geoid::load(terrain::Geoid::default_grid());
-    if (!geoid) fail(geoid.error());
-    ig::EyepointReading reading;
-    reading.view.vertical_fov_deg = request.vertical_fov_deg;
-    reading.altitude_datum =
-        request.ellipsoid ? config::VerticalDatum::Ellipsoid : config::VerticalDatum::Msl;
-    reading.geoid = &*geoid;
-    auto eyes = ig::fly(*recording, *port, reading, request.drawing.size, request.rate_hz);
-    if (!eyes) fail(request.flight.string() + ": " + eyes.error());
-    std::erase_if(*eyes, [&](const ig::FlightEye& eye) {
-        return eye.time_s < request.from_s || eye.time_s > request.until_s;
-    });
-    if (eyes->empty()) fail("nothing is flown between --from and --until");
+    const auto eyes = read_eyes({.file = request.flight,
+                                 .size = request.drawing.size,
+                                 .vertical_fov_deg = request.vertical_fov_deg,
+                                 .rate_hz = request.rate_hz,
+                                 .ellipsoid = request.ellipsoid,
+                                 .from_s = request.from_s,
+                                 .until_s = request.until_s});
+    if (!eyes) fail(eyes.error());
     BenchOptions options = request.drawing;
     options.complete = !request.streaming;
     const auto result = run_bench(options, *eyes);

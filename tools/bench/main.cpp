@@ -13,23 +13,27 @@ void fail(const std::string& sentence) {
     std::exit(EXIT_FAILURE);
 }
 
-void add_drawing_options(CLI::App& command, BenchOptions& options, bool terrain_required) {
-    auto* terrain = command.add_option("--terrain", options.terrain, "terrain database")->type_name("DB");
-    if (terrain_required) terrain->required();
+void add_size_option(CLI::App& command, ig::PictureSize& size) {
     command
         .add_option_function<std::string>(
             "--size",
-            [&options](const std::string& text) {
+            [&size](const std::string& text) {
                 int width = 0, height = 0;
                 char rest = 0;
                 if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 16 ||
                     height < 16) {
                     throw CLI::ValidationError("--size", "'" + text + "' is no size; write it as 1280x720");
                 }
-                options.size = {width, height};
+                size = {width, height};
             },
             "picture, WIDTHxHEIGHT pixels")
-        ->default_str(fmt::format("{}x{}", options.size.width_px, options.size.height_px));
+        ->default_str(fmt::format("{}x{}", size.width_px, size.height_px));
+}
+
+void add_drawing_options(CLI::App& command, BenchOptions& options, bool terrain_required) {
+    auto* terrain = command.add_option("--terrain", options.terrain, "terrain database")->type_name("DB");
+    if (terrain_required) terrain->required();
+    add_size_option(command, options.size);
     command.add_option("--tau", options.scene.tau_px, "tolerance, pixels")
         ->check(CLI::Range(0.05, 100.0))
         ->capture_default_str();
@@ -51,6 +55,7 @@ int main(int argc, char** argv) {
     program.require_subcommand(1);
     eyepoint::tools::add_flight_command(program);
     eyepoint::tools::add_field_command(program);
+    eyepoint::tools::add_measure_command(program);
     CLI11_PARSE(program, argc, argv);
     return EXIT_SUCCESS;
 }

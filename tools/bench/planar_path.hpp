@@ -18,6 +18,9 @@ struct PlanarField {
     double side_m = 0.0;
 };
 
+/// The benchmark field (Mt Rainier): 4097 posts 22.5 m apart; the outer posts of its georeference.
+inline constexpr PlanarField kRainierField{{-121.9, 46.1, -120.7, 46.93}, 92160.0};
+
 /// Reads a path of lines "east_m,north_m,height_m,heading_rad,pitch_rad" behind one line of headings: heading
 /// clockwise from north, pitch nose up, height above the ellipsoid. East and north become longitude and
 /// latitude linearly over the field. One eye a line, 30 a second. On failure: one sentence with file and

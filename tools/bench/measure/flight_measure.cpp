@@ -1,0 +1,130 @@
+#include "tools/bench/measure/flight_measure.hpp"
+
+#include <algorithm>
+
+namespace eyepoint::tools {
+
+namespace {
+
+class Lap {
+  public:
+    Lap(LodFlight& flight, FullSurface& surface, std::span<const terrain::LodView> views,
+        const MeasureOptions& options)
+        : flight_(flight), surface_(surface), views_(views), options_(options) {}
+
+    tl::expected<FrameMeasure, std::string> fly(std::size_t frame, const SeePosts& see) {
+        const terrain::Selection& selection = flight_.select(views_[frame]);
+        FrameMeasure result;
+        result.frame = frame;
+        result.triangles = selection.triangles;
+        result.triangles_hidden = selection.triangles_hidden;
+        result.draws = static_cast<std::uint32_t>(selection.draws.size());
+        result.blocks_tested = selection.blocks_tested;
+        result.blocks_reused = selection.blocks_reused;
+        result.work = flight_.work();
+        const bool measured = frame % options_.every == 0;
+        const bool before_measured =
+            options_.pops && (frame + 1) % options_.every == 0 && frame + 1 < views_.size();
+        if (!measured && !before_measured) return result;
+
+        const DrawnMesh mesh = drawn_mesh(selection, flight_.method(), views_[frame], options_.morph);
+        result.measured = measured;
+        result.empty_triangles = mesh.empty_triangles;
+        if (measured && options_.faults) result.faults = find_mesh_faults(mesh);
+        if (!options_.posts) return result;
+        const PostView view{views_[frame], options_.far_m};
+        auto posts = measure_posts(surface_, mesh, view);
+        if (!posts) return tl::unexpected(posts.error());
+        if (measured) result.posts = post_figures(*posts);
+        if (measured && before_ && before_frame_ + 1 == frame) result.pops = pops(*before_, *posts);
+        if (measured && see) {
+            if (auto seen = see(frame, view, *posts); !seen) return tl::unexpected(seen.error());
+        }
+        before_ = std::move(*posts);
+        before_frame_ = frame;
+        return result;
+    }
+
+  private:
+    LodFlight& flight_;
+    FullSurface& surface_;
+    std::span<const terrain::LodView> views_;
+    const MeasureOptions& options_;
+    std::optional<MeasuredPosts> before_;
+    std::size_t before_frame_ = 0;
+};
+
+double median(std::vector<double> values) {
+    if (values.empty()) return 0.0;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+}  // namespace
+
+tl::expected<std::vector<FrameMeasure>, std::string> measure_flight(LodFlight& flight, FullSurface& surface,
+                                                                    std::span<const terrain::LodView> views,
+                                                                    const MeasureOptions& options,
+                                                                    const SeePosts& see) {
+    for (const terrain::LodView& view : views) (void)flight.settle(view);
+    if (!views.empty()) (void)flight.settle(views.front());
+    flight.forget_uploads();
+    Lap lap(flight, surface, views, options);
+    std::vector<FrameMeasure> frames;
+    frames.reserve(views.size());
+    for (std::size_t frame = 0; frame < views.size(); ++frame) {
+        auto measured = lap.fly(frame, see);
+        if (!measured) return tl::unexpected(measured.error());
+        frames.push_back(std::move(*measured));
+    }
+    return frames;
+}
+
+FlightFigures summarise(std::span<const FrameMeasure> frames) {
+    FlightFigures sum;
+    sum.frames = frames.size();
+    if (frames.empty()) return sum;
+    std::vector<double> triangles, selection_us;
+    double reused = 0.0, selection_ns = 0.0;
+    for (const FrameMeasure& frame : frames) {
+        triangles.push_back(static_cast<double>(frame.triangles));
+        selection_us.push_back(frame.work.cpu_ns * 1e-3);
+        selection_ns += frame.work.cpu_ns;
+        sum.triangles_mean += static_cast<double>(frame.triangles);
+        sum.triangles_max = std::max(sum.triangles_max, frame.triangles);
+        sum.draws_mean += frame.draws;
+        sum.hidden_mean += static_cast<double>(frame.triangles_hidden);
+        sum.tested_mean += frame.blocks_tested;
+        reused += frame.blocks_reused;
+        if (&frame != &frames.front()) {
+            sum.allocations += frame.work.allocations;
+            sum.frames_allocating += frame.work.allocations > 0 ? 1 : 0;
+        }
+        sum.uploaded_kib_mean += static_cast<double>(frame.work.uploaded_bytes) / 1024.0;
+        sum.frames_wishing += frame.work.blocks_wished > 0 ? 1 : 0;
+        if (!frame.measured) continue;
+        ++sum.measured_frames;
+        sum.empty_mean += static_cast<double>(frame.empty_triangles);
+        sum.posts.merge(frame.posts);
+        sum.worst_frame_p999_px = std::max(sum.worst_frame_p999_px, frame.posts.error.percentile(0.999));
+        sum.pops.merge(frame.pops);
+        sum.faults.edges += frame.faults.edges;
+        sum.faults.borders += frame.faults.borders;
+        sum.faults.cracks += frame.faults.cracks;
+        sum.faults.overlaps += frame.faults.overlaps;
+    }
+    const auto count = static_cast<double>(frames.size());
+    sum.reused_share = sum.tested_mean > 0.0 ? reused / sum.tested_mean : 0.0;
+    sum.ns_per_block = sum.tested_mean > 0.0 ? selection_ns / sum.tested_mean : 0.0;
+    for (double* mean :
+         {&sum.triangles_mean, &sum.draws_mean, &sum.hidden_mean, &sum.tested_mean, &sum.uploaded_kib_mean})
+        *mean /= count;
+    if (sum.measured_frames > 0) sum.empty_mean /= static_cast<double>(sum.measured_frames);
+    sum.selection_us_mean = selection_ns * 1e-3 / count;
+    sum.triangles_median = median(std::move(triangles));
+    sum.selection_us_median = median(std::move(selection_us));
+    return sum;
+}
+
+}  // namespace eyepoint::tools

@@ -1,0 +1,166 @@
+/// eyepoint-bench measure: what a level-of-detail method draws and how far that is from the truth, without
+/// drawing.
+#include <algorithm>
+#include <fstream>
+#include <memory>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "ig/lod_view.hpp"
+#include "terrain/database/database.hpp"
+#include "tools/bench/allocation_count.hpp"
+#include "tools/bench/command_options.hpp"
+#include "tools/bench/eyes.hpp"
+#include "tools/bench/measure/tolerance_match.hpp"
+#include "tools/bench/measure_report.hpp"
+
+namespace eyepoint::tools {
+
+namespace {
+
+struct MeasureRequest {
+    EyesRequest eyes;
+    std::filesystem::path terrain;
+    FlightOptions flight;
+    MeasureOptions options{.every = 20};
+    double tau_px = 1.0;
+    double slack_px = 0.0;
+    std::string morph = "on";
+    std::size_t first_frames = 0;
+    std::optional<double> match_p999_px;
+    std::optional<std::filesystem::path> json;
+};
+
+std::vector<terrain::LodView> views_of(const MeasureRequest& request) {
+    auto eyes = read_eyes(request.eyes);
+    if (!eyes) fail(eyes.error());
+    if (request.first_frames > 0 && request.first_frames < eyes->size()) eyes->resize(request.first_frames);
+    std::vector<terrain::LodView> views;
+    for (const ig::FlightEye& eye : *eyes)
+        views.push_back(ig::lod_view(eye.eyepoint.view, request.tau_px, request.slack_px));
+    return views;
+}
+
+void write(const std::filesystem::path& file, const nlohmann::json& json) {
+    std::ofstream stream(file);
+    stream << json.dump(2) << '\n';
+    if (!stream.flush()) fail(file.string() + ": cannot be written; check the folder and free space");
+}
+
+nlohmann::json header(const MeasureRequest& request) {
+    return {{"path", request.eyes.file.filename().string()},
+            {"lod", request.flight.lod_method},
+            {"tau_px", request.tau_px},
+            {"slack_px", request.slack_px},
+            {"morph", request.options.morph},
+            {"width_px", request.eyes.size.width_px},
+            {"height_px", request.eyes.size.height_px},
+            {"vertical_fov_deg", request.eyes.vertical_fov_deg}};
+}
+
+void run_match(const MeasureRequest& request, LodFlight& flight, FullSurface& surface,
+               const std::vector<terrain::LodView>& views) {
+    std::vector<terrain::LodView> sampled;
+    for (std::size_t i = 0; i < views.size(); i += request.options.every) sampled.push_back(views[i]);
+    const auto match = match_p999(flight, surface, sampled, *request.match_p999_px,
+                                  request.slack_px / request.tau_px, request.options);
+    if (!match) fail(match.error());
+    fmt::print("{}: post error p99.9 <= {} px at tau {:.3f} px\n{}", request.flight.lod_method,
+               *request.match_p999_px, match->tau_px, describe(match->figures));
+    if (!request.json) return;
+    nlohmann::json json = header(request);
+    json["tau_px"] = match->tau_px;
+    json["match_p999_px"] = *request.match_p999_px;
+    json["flight"] = to_json(match->figures);
+    write(*request.json, json);
+}
+
+void run_measure(const MeasureRequest& request, LodFlight& flight, FullSurface& surface,
+                 const std::vector<terrain::LodView>& views) {
+    const auto frames = measure_flight(flight, surface, views, request.options);
+    if (!frames) fail(frames.error());
+    const FlightFigures figures = summarise(*frames);
+    fmt::print("{}, tau {} px, slack {} px, morph {}: {}", request.flight.lod_method, request.tau_px,
+               request.slack_px, request.morph, describe(figures));
+    if (!request.json) return;
+    nlohmann::json json = header(request);
+    json["flight"] = to_json(figures);
+    for (const FrameMeasure& frame : *frames) json["frames"].push_back(to_json(frame));
+    write(*request.json, json);
+}
+
+void run(MeasureRequest request) {
+    request.options.morph = request.morph == "on";
+    request.flight.allocations = heap_allocations;
+    const std::vector<terrain::LodView> views = views_of(request);
+    auto opened = terrain::Database::open(request.terrain);
+    if (!opened) fail(opened.error());
+    const auto database = std::make_shared<const terrain::Database>(std::move(*opened));
+    auto flight = LodFlight::create(database, request.flight);
+    if (!flight) fail(flight.error());
+    FullSurface surface(database);
+    if (request.match_p999_px)
+        run_match(request, **flight, surface, views);
+    else
+        run_measure(request, **flight, surface, views);
+}
+
+void add_measuring(CLI::App& command, MeasureRequest& request) {
+    command.add_option("--lod", request.flight.lod_method, "level-of-detail method")->capture_default_str();
+    command.add_option("--tau", request.tau_px, "tolerance, pixels")
+        ->check(CLI::Range(0.05, 100.0))
+        ->capture_default_str();
+    command.add_option("--slack", request.slack_px, "slack, pixels")
+        ->check(CLI::Range(0.0, 100.0))
+        ->capture_default_str();
+    command.add_option("--morph", request.morph, "vertices slide between levels, or jump")
+        ->check(CLI::IsMember({"on", "off"}))
+        ->capture_default_str();
+    command.add_option("--every", request.options.every, "measure every so-manieth frame")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    command.add_option("--frames", request.first_frames, "only the first so many frames");
+    command.add_option("--far", request.options.far_m, "posts beyond are not looked at, metres")
+        ->capture_default_str();
+    command
+        .add_option(
+            "--match-p999", request.match_p999_px,
+            "find the tolerance at which 99.9% of the posts err by at most so many pixels (1.12 is the "
+            "field's measure)")
+        ->check(CLI::Range(0.05, 50.0));
+    command.add_option("--json", request.json, "figures as JSON")->type_name("FILE");
+}
+
+}  // namespace
+
+void add_measure_command(CLI::App& program) {
+    auto request = std::make_shared<MeasureRequest>();
+    auto* command = program.add_subcommand(
+        "measure",
+        "Measures a level-of-detail method along a path: triangles, post error, pops, cracks, work.");
+    command
+        ->add_option("path", request->eyes.file,
+                     "path over the benchmark field (csv) or recorded flight (pcap)")
+        ->required()
+        ->check(CLI::ExistingFile);
+    command->add_option("--terrain", request->terrain, "terrain database")->type_name("DB")->required();
+    add_size_option(*command, request->eyes.size);
+    command->add_option("--fov", request->eyes.vertical_fov_deg, "vertical field of view, degrees")
+        ->check(CLI::Range(1.0, 170.0))
+        ->capture_default_str();
+    command->add_option("--rate", request->eyes.rate_hz, "frames a second of a recorded flight")
+        ->check(CLI::Range(0.01, 1000.0))
+        ->capture_default_str();
+    command->add_flag("--ellipsoid", request->eyes.ellipsoid,
+                      "a recorded flight's altitudes are above the ellipsoid, not the sea");
+    command->add_option("--from", request->eyes.from_s, "start of the part of a recorded flight, seconds");
+    command->add_option("--until", request->eyes.until_s, "its end, seconds");
+    add_measuring(*command, *request);
+    command->callback([request] { run(*request); });
+    command->footer(
+        "Example: eyepoint-bench measure cruise.csv --terrain FIELD --lod regular --tau 1.3 --json out.json\n"
+        "         eyepoint-bench measure cruise.csv --terrain FIELD --match-p999 1.12");
+}
+
+}  // namespace eyepoint::tools
