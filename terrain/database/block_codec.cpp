@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 #include <zstd.h>
 
-#include "terrain/database/byte_stream.hpp"
 #include "terrain/database/interpolate.hpp"
 #include "terrain/database/little_endian.hpp"
+#include "terrain/database/zigzag.hpp"
 
 namespace eyepoint::terrain {
 

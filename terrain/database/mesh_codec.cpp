@@ -1,27 +1,27 @@
 #include "terrain/database/mesh_codec.hpp"
 
-#include <algorithm>
-#include <memory>
+#include <utility>
 
-#include <fmt/format.h>
-#include <zstd.h>
-
-#include "terrain/database/byte_stream.hpp"
 #include "terrain/database/mesh_gates.hpp"
 #include "terrain/database/mesh_place_codec.hpp"
 #include "terrain/database/mesh_places.hpp"
 #include "terrain/database/mesh_structure.hpp"
+#include "terrain/database/range_coder.hpp"
+#include "terrain/lod/error_level.hpp"
 
 namespace eyepoint::terrain {
 
 namespace {
 
-enum class Kind : std::uint8_t { Listed = 0, WholeGrid = 1 };
+/// A rank that stands for a target that is not among the first so many.
+constexpr std::size_t kFarRank = 255;
 
-constexpr std::size_t kMaxVertices = std::size_t{kBlockPosts} * kBlockPosts;
-/// More than any mesh takes whose triangles are a triangulation.
-constexpr std::size_t kMaxPayload = std::size_t{1} << 20;
-constexpr int kZstdLevel = 19;
+struct TargetModels {
+    NumberModel inside;
+    NumberModel on_side;  ///< targets of vertices on the tile's sides lie on the same side
+    NumberModel far;
+    NumberModel& rank_at(Place place) { return sides_of(place) == 0 ? inside : on_side; }
+};
 
 /// The vertices that one may go to, the nearest first: those that go later, on every side of the tile that it
 /// is on.
@@ -41,18 +41,18 @@ class TargetRanks {
         });
     }
 
-    /// kEscape where it is no less or there is none such.
-    [[nodiscard]] std::uint8_t rank_of(std::size_t vertex, std::size_t target) const {
-        std::uint8_t rank = 0;
+    /// At most kFarRank.
+    [[nodiscard]] std::size_t rank_of(std::size_t vertex, std::size_t target) const {
+        std::size_t rank = 0;
         bool found = false;
         visit(vertex, [&](std::size_t other) {
             found = other == target;
-            return !found && ++rank < kEscape;
+            return !found && ++rank < kFarRank;
         });
-        return found ? rank : kEscape;
+        return found ? rank : kFarRank;
     }
     /// The vertex itself where there are not so many.
-    [[nodiscard]] std::size_t target_of(std::size_t vertex, std::uint8_t rank) const {
+    [[nodiscard]] std::size_t target_of(std::size_t vertex, std::uint64_t rank) const {
         std::size_t target = vertex;
         visit(vertex, [&](std::size_t other) {
             if (rank == 0) target = other;
@@ -67,110 +67,72 @@ class TargetRanks {
     PlaceIndex index_;
 };
 
-/// A byte by vertex: 0 where it stays, otherwise one more than the levels after the first at which it goes.
-void append_levels(std::vector<std::uint8_t>& payload, const NestedMesh& mesh, std::uint8_t first_level) {
-    for (const std::uint8_t level : mesh.gone_level) {
-        payload.push_back(level == NestedMesh::kStays ? std::uint8_t{0}
-                                                      : static_cast<std::uint8_t>(level - first_level + 1));
-    }
+void write_levels(RangeEncoder& bytes, const NestedMesh& mesh, std::uint8_t first_level) {
+    NumberModel model;
+    for (const std::uint8_t level : mesh.gone_level)
+        bytes.number(model, level == NestedMesh::kStays ? 0U : level - first_level + 1U);
 }
 
-void append_targets(std::vector<std::uint8_t>& payload, const NestedMesh& mesh,
-                    std::span<const Place> places) {
+void write_targets(RangeEncoder& bytes, const NestedMesh& mesh, std::span<const Place> places) {
     const TargetRanks ranks{places, mesh.gone_level};
-    std::vector<std::uint8_t> escaped;
+    TargetModels models;
     for (std::size_t vertex = 0; vertex < mesh.vertices(); ++vertex) {
         if (mesh.gone_level[vertex] == NestedMesh::kStays) continue;
-        payload.push_back(ranks.rank_of(vertex, mesh.target[vertex]));
-        if (payload.back() == kEscape) append_le(escaped, mesh.target[vertex]);
+        const std::size_t rank = ranks.rank_of(vertex, mesh.target[vertex]);
+        bytes.number(models.rank_at(places[vertex]), rank);
+        if (rank == kFarRank) bytes.number(models.far, mesh.target[vertex]);
     }
-    payload.insert(payload.end(), escaped.begin(), escaped.end());
 }
 
-void append_triangles(std::vector<std::uint8_t>& payload, const NestedMesh& mesh,
-                      std::span<const Place> places) {
-    const TriangleStream stream = encode_triangles(places, canonical_triangles(mesh));
-    append_le(payload, static_cast<std::uint16_t>(mesh.triangles.size() / 3));
-    append_le(payload, static_cast<std::uint16_t>(stream.seeds.size() / 3));
-    for (const std::uint16_t corner : stream.seeds) append_le(payload, corner);
-    payload.insert(payload.end(), stream.gates.begin(), stream.gates.end());
-}
-
-std::vector<std::uint8_t> compress(std::span<const std::uint8_t> payload) {
-    std::vector<std::uint8_t> bytes(ZSTD_compressBound(payload.size()));
-    bytes.resize(ZSTD_compress(bytes.data(), bytes.size(), payload.data(), payload.size(), kZstdLevel));
-    return bytes;
-}
-
-tl::expected<std::vector<std::uint8_t>, std::string> decompress(std::span<const std::uint8_t> bytes) {
-    const unsigned long long declared = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
-    if (declared == ZSTD_CONTENTSIZE_ERROR || declared == ZSTD_CONTENTSIZE_UNKNOWN || declared > kMaxPayload)
-        return tl::unexpected(std::string{"it is no zstd frame of a mesh's size"});
-    std::vector<std::uint8_t> payload(declared);
-    const std::size_t size = ZSTD_decompress(payload.data(), payload.size(), bytes.data(), bytes.size());
-    if (ZSTD_isError(size) != 0U)
-        return tl::unexpected(fmt::format("it does not decompress ({})", ZSTD_getErrorName(size)));
-    if (size != payload.size()) return tl::unexpected(std::string{"it is shorter than it says"});
-    return payload;
-}
-
-void read_levels(ByteReader& payload, NestedMesh& mesh, std::size_t vertices, std::uint8_t first_level) {
+bool read_levels(RangeDecoder& bytes, NestedMesh& mesh, std::size_t vertices, std::uint8_t first_level) {
+    NumberModel model;
     mesh.gone_level.reserve(vertices);
     for (std::size_t vertex = 0; vertex < vertices; ++vertex) {
-        const auto after = payload.number<std::uint8_t>();
+        const std::uint64_t after = bytes.number(model);
+        if (after > kLastLevel + 1U) return false;
         mesh.gone_level.push_back(after == 0 ? NestedMesh::kStays
                                              : static_cast<std::uint8_t>(first_level + after - 1));
     }
+    return true;
 }
 
-void read_targets(ByteReader& payload, NestedMesh& mesh, std::span<const Place> places) {
+bool read_targets(RangeDecoder& bytes, NestedMesh& mesh, std::span<const Place> places) {
     const TargetRanks ranks{places, mesh.gone_level};
+    TargetModels models;
     mesh.target.assign(mesh.vertices(), 0);
-    std::vector<std::size_t> escaped;
-    for (std::size_t vertex = 0; vertex < mesh.vertices() && !payload.failed(); ++vertex) {
+    for (std::size_t vertex = 0; vertex < mesh.vertices() && !bytes.overrun(); ++vertex) {
         if (mesh.gone_level[vertex] == NestedMesh::kStays) continue;
-        const auto rank = payload.number<std::uint8_t>();
-        if (rank == kEscape) {
-            escaped.push_back(vertex);
-        } else {
-            mesh.target[vertex] = static_cast<std::uint16_t>(ranks.target_of(vertex, rank));
-        }
+        const std::uint64_t rank = bytes.number(models.rank_at(places[vertex]));
+        const std::uint64_t target =
+            rank < kFarRank ? ranks.target_of(vertex, rank) : bytes.number(models.far);
+        if (rank > kFarRank || target >= mesh.vertices()) return false;
+        mesh.target[vertex] = static_cast<std::uint16_t>(target);
     }
-    for (const std::size_t vertex : escaped) mesh.target[vertex] = payload.number<std::uint16_t>();
+    return true;
 }
 
-tl::expected<std::vector<std::uint16_t>, std::string> read_triangles(ByteReader& payload,
-                                                                     std::span<const Place> places) {
-    const std::size_t triangles = payload.number<std::uint16_t>();
-    std::vector<std::uint16_t> seeds(3 * std::size_t{payload.number<std::uint16_t>()});
-    for (std::uint16_t& corner : seeds) corner = payload.number<std::uint16_t>();
-    if (payload.failed()) return tl::unexpected(std::string{"it is cut short"});
-    return decode_triangles(places, triangles, payload.rest(), seeds);
-}
-
-tl::expected<NestedMesh, std::string> decode_payload(ByteReader& payload, std::uint8_t first_level,
-                                                     double height_step_m) {
+tl::expected<NestedMesh, std::string> read_mesh(RangeDecoder& bytes, std::uint8_t first_level,
+                                                double height_step_m) {
     NestedMesh mesh;
-    const auto kind = payload.number<std::uint8_t>();
-    if (kind > static_cast<std::uint8_t>(Kind::WholeGrid))
-        return tl::unexpected(fmt::format("it is of kind {}", kind));
-    mesh.whole_grid = kind == static_cast<std::uint8_t>(Kind::WholeGrid);
+    BitModel kind;
+    mesh.whole_grid = bytes.bit(kind);
     if (!mesh.whole_grid) {
-        auto places = decode_places(payload, height_step_m);
+        auto places = decode_places(bytes, height_step_m);
         if (!places) return tl::unexpected(places.error());
         mesh.posts = std::move(places->posts);
         mesh.fine_posts = std::move(places->fine_posts);
     }
     const auto places = vertex_places(mesh);
-    read_levels(payload, mesh, places.size(), first_level);
-    read_targets(payload, mesh, places);
+    if (!read_levels(bytes, mesh, places.size(), first_level))
+        return tl::unexpected(std::string{"a vertex goes at a level that there is not"});
+    if (!read_targets(bytes, mesh, places))
+        return tl::unexpected(std::string{"a vertex goes to one that there is not"});
     if (!mesh.whole_grid) {
-        auto triangles = read_triangles(payload, places);
+        auto triangles = decode_triangles(bytes, places);
         if (!triangles) return tl::unexpected(triangles.error());
         mesh.triangles = std::move(*triangles);
     }
-    if (payload.failed()) return tl::unexpected(std::string{"it is cut short"});
-    if (!payload.rest().empty()) return tl::unexpected(std::string{"it is longer than it says"});
+    if (!bytes.at_end()) return tl::unexpected(std::string{"it is not as long as it says"});
     return mesh;
 }
 
@@ -182,26 +144,22 @@ tl::expected<std::vector<std::uint8_t>, std::string> encode_mesh(const NestedMes
                                                                  double height_step_m) {
     if (auto sound = check_structure(mesh, first_level, last_level); !sound)
         return tl::unexpected(sound.error());
-    std::vector<std::uint8_t> payload;
-    payload.push_back(static_cast<std::uint8_t>(mesh.whole_grid ? Kind::WholeGrid : Kind::Listed));
-    if (!mesh.whole_grid) {
-        const auto places = encode_places(mesh, height_step_m);
-        payload.insert(payload.end(), places.begin(), places.end());
-    }
+    RangeEncoder bytes;
+    BitModel kind;
+    bytes.bit(kind, mesh.whole_grid);
+    if (!mesh.whole_grid) encode_places(bytes, mesh, height_step_m);
     const auto places = vertex_places(mesh);
-    append_levels(payload, mesh, first_level);
-    append_targets(payload, mesh, places);
-    if (!mesh.whole_grid) append_triangles(payload, mesh, places);
-    return compress(payload);
+    write_levels(bytes, mesh, first_level);
+    write_targets(bytes, mesh, places);
+    if (!mesh.whole_grid) encode_triangles(bytes, places, canonical_triangles(mesh));
+    return bytes.finish();
 }
 
 tl::expected<NestedMesh, std::string> decode_mesh(std::span<const std::uint8_t> bytes,
                                                   std::uint8_t first_level, std::uint8_t last_level,
                                                   double height_step_m) {
-    const auto payload = decompress(bytes);
-    if (!payload) return tl::unexpected(payload.error());
-    ByteReader reader{*payload};
-    auto mesh = decode_payload(reader, first_level, height_step_m);
+    RangeDecoder decoder{bytes};
+    auto mesh = read_mesh(decoder, first_level, height_step_m);
     if (!mesh) return mesh;
     if (auto sound = check_structure(*mesh, first_level, last_level); !sound)
         return tl::unexpected(sound.error());

@@ -21,6 +21,13 @@ struct Gate {
 
 /// Third corners that are ranked: the nearest to where the corner of an equilateral triangle would be.
 constexpr std::size_t kMaxCandidates = 12;
+/// Vertices that are looked at for them.
+constexpr std::size_t kMaxLookedAt = 40;
+
+struct TriangleModels {
+    NumberModel choice;  ///< by gate: 0 where no triangle is beyond it, or 1 + the rank of the third corner
+    NumberModel corner;  ///< of triangles that no gate leads to; and how many triangles there are
+};
 
 std::int64_t cross(Place origin, Place a, Place b) {
     return std::int64_t{a.x - origin.x} * (b.y - origin.y) - std::int64_t{a.y - origin.y} * (b.x - origin.x);
@@ -77,9 +84,10 @@ class Front {
     std::span<const Candidate> candidates(Gate gate) {
         near_.clear();
         const Place a = places_[gate.from], b = places_[gate.to];
+        std::size_t looked_at = 0;
         index_.visit_from(apex(a, b), [&](std::size_t vertex) {
             consider(gate, static_cast<Vertex>(vertex));
-            return near_.size() < kMaxCandidates;
+            return near_.size() < kMaxCandidates && ++looked_at < kMaxLookedAt;
         });
         std::ranges::sort(near_, [](const Candidate& x, const Candidate& y) { return x.before(y); });
         ranked_.clear();
@@ -154,8 +162,9 @@ class Unwritten {
         written_.resize(all_.size());
     }
 
-    /// The number of the gate's symbol; the triangle is then written.
-    std::uint8_t take(Gate gate, std::span<const Candidate> candidates, Corners& taken) {
+    /// 1 + the place of the third corner among the candidates, and the triangle is then written; 0 where none
+    /// is there.
+    std::size_t take(Gate gate, std::span<const Candidate> candidates, Corners& taken) {
         const auto [first, last] = by_edge_.equal_range(key(gate.from, gate.to));
         for (auto at = first; at != last; ++at) {
             if (written_[at->second]) continue;
@@ -164,7 +173,7 @@ class Unwritten {
             if (rank == candidates.end()) continue;
             written_[at->second] = true;
             taken = {gate.from, gate.to, third};
-            return static_cast<std::uint8_t>(rank - candidates.begin() + 1);
+            return static_cast<std::size_t>(rank - candidates.begin()) + 1;
         }
         return 0;
     }
@@ -192,57 +201,59 @@ class Unwritten {
 
 }  // namespace
 
-TriangleStream encode_triangles(std::span<const Place> places, std::span<const std::uint16_t> triangles) {
-    TriangleStream stream;
+void encode_triangles(RangeEncoder& bytes, std::span<const Place> places,
+                      std::span<const std::uint16_t> triangles) {
     Unwritten unwritten{triangles};
     Front front{places};
+    TriangleModels models;
+    bytes.number(models.corner, unwritten.size());
     for (std::size_t written = 0; written < unwritten.size();) {
         const auto gate = front.next();
         Corners corners{};
         if (!gate) {
             corners = unwritten.take_first();
-            stream.seeds.insert(stream.seeds.end(), corners.begin(), corners.end());
+            for (const Vertex corner : corners) bytes.number(models.corner, corner);
         } else {
-            stream.gates.push_back(unwritten.take(*gate, front.candidates(*gate), corners));
-            if (stream.gates.back() == 0) continue;
+            const auto candidates = front.candidates(*gate);
+            if (candidates.empty()) continue;
+            const std::size_t choice = unwritten.take(*gate, candidates, corners);
+            bytes.number(models.choice, choice);
+            if (choice == 0) continue;
         }
         front.add(corners);
         ++written;
     }
-    return stream;
 }
 
-tl::expected<std::vector<std::uint16_t>, std::string> decode_triangles(std::span<const Place> places,
-                                                                       std::size_t triangles,
-                                                                       std::span<const std::uint8_t> gates,
-                                                                       std::span<const std::uint16_t> seeds) {
+tl::expected<std::vector<std::uint16_t>, std::string> decode_triangles(RangeDecoder& bytes,
+                                                                       std::span<const Place> places) {
     NestedMesh mesh;
-    mesh.triangles.reserve(3 * triangles);
     Front front{places};
-    while (mesh.triangles.size() < 3 * triangles) {
+    TriangleModels models;
+    const std::uint64_t triangles = bytes.number(models.corner);
+    if (triangles > kMaxTriangles) return tl::unexpected(std::string{"it has too many triangles"});
+    while (mesh.triangles.size() < 3 * triangles && !bytes.overrun()) {
         const auto gate = front.next();
         Corners corners{};
         if (!gate) {
-            if (seeds.size() < 3) return tl::unexpected(std::string{"triangles are missing"});
-            corners = {seeds[0], seeds[1], seeds[2]};
-            seeds = seeds.subspan(3);
-            if (std::ranges::max(corners) >= places.size() || corners[0] == corners[1] ||
-                corners[1] == corners[2] || corners[2] == corners[0]) {
-                return tl::unexpected(std::string{"a triangle has corners that are no vertices"});
+            for (Vertex& corner : corners) {
+                const std::uint64_t vertex = bytes.number(models.corner);
+                if (vertex >= places.size())
+                    return tl::unexpected(std::string{"a triangle's corner is no vertex"});
+                corner = static_cast<Vertex>(vertex);
             }
         } else {
-            if (gates.empty()) return tl::unexpected(std::string{"triangles are missing"});
-            const std::size_t symbol = gates.front();
-            gates = gates.subspan(1);
-            if (symbol == 0) continue;
             const auto candidates = front.candidates(*gate);
-            if (symbol > candidates.size()) return tl::unexpected(std::string{"a triangle has no corner"});
-            corners = {gate->from, gate->to, candidates[symbol - 1].vertex};
+            if (candidates.empty()) continue;
+            const std::uint64_t choice = bytes.number(models.choice);
+            if (choice == 0) continue;
+            if (choice > candidates.size())
+                return tl::unexpected(std::string{"a triangle has no third corner"});
+            corners = {gate->from, gate->to, candidates[choice - 1].vertex};
         }
         front.add(corners);
         mesh.triangles.insert(mesh.triangles.end(), corners.begin(), corners.end());
     }
-    if (!gates.empty() || !seeds.empty()) return tl::unexpected(std::string{"there are triangles too many"});
     return canonical_triangles(mesh);
 }
 

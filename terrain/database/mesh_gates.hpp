@@ -17,26 +17,21 @@
 #include <tl/expected.hpp>
 
 #include "terrain/database/mesh_places.hpp"
+#include "terrain/database/range_coder.hpp"
 
 namespace eyepoint::terrain {
 
-struct TriangleStream {
-    /// By gate: 0 where no triangle is beyond it, or 1 + the rank of the third corner. Those after the last
-    /// triangle are left out.
-    std::vector<std::uint8_t> gates;
-    /// The three corners of each triangle that no gate leads to: the first, and what is odd.
-    std::vector<std::uint16_t> seeds;
-};
+/// Twice what a triangulation of 33 x 33 vertices has.
+inline constexpr std::size_t kMaxTriangles = 4096;
 
-/// Any triangles, three corners each, at most 65535; a triangulation that covers the tile takes one seed or a
-/// few.
-[[nodiscard]] TriangleStream encode_triangles(std::span<const Place> places,
-                                              std::span<const std::uint16_t> triangles);
+/// Any triangles, three corners each, at most kMaxTriangles. A triangulation that covers the tile has one
+/// that no gate leads to, or a few; those cost some bytes each.
+void encode_triangles(RangeEncoder& bytes, std::span<const Place> places,
+                      std::span<const std::uint16_t> triangles);
 
-/// The same triangles, as canonical_triangles() of mesh_structure.hpp gives them, if the stream is
-/// encode_triangles'. Any bytes may be given; on failure: the fault.
+/// The same triangles, as canonical_triangles() of mesh_structure.hpp gives them. Any bytes may be given; on
+/// failure: the fault.
 [[nodiscard]] tl::expected<std::vector<std::uint16_t>, std::string> decode_triangles(
-    std::span<const Place> places, std::size_t triangles, std::span<const std::uint8_t> gates,
-    std::span<const std::uint16_t> seeds);
+    RangeDecoder& bytes, std::span<const Place> places);
 
 }  // namespace eyepoint::terrain

@@ -2,17 +2,19 @@
 
 #include <algorithm>
 #include <bit>
+#include <optional>
 #include <tuple>
+#include <utility>
 
 #include "terrain/database/interpolate.hpp"
 #include "terrain/database/mesh_places.hpp"
+#include "terrain/database/zigzag.hpp"
 
 namespace eyepoint::terrain {
 
 namespace {
 
 constexpr std::size_t kMaxVertices = std::size_t{kBlockPosts} * kBlockPosts;
-constexpr std::size_t kMaxPlanes = 4;
 /// Depths below the tile whose posts a mesh can have.
 constexpr int kDepthsBelow = std::countr_zero(static_cast<std::uint32_t>(kPostUnits));
 constexpr std::uint64_t kCellCodes = (std::uint64_t{1} << 2 * kDepthsBelow) - 1;
@@ -48,15 +50,9 @@ InCell in_cell(Place place) {
     return {static_cast<std::uint32_t>(place.y / kPostUnits * kBlockPosts + place.x / kPostUnits),
             code_in_cell(place)};
 }
-Place place_of_code(InCell post) {
+Place place_of(InCell post) {
     const Place corner = place_of_post(static_cast<int>(post.cell)), inner = place_in_cell(post.code);
     return {corner.x + inner.x, corner.y + inner.y};
-}
-
-std::vector<Place> places_of(std::span<const NestedMesh::FinePost> posts) {
-    std::vector<Place> places;
-    for (const auto& post : posts) places.push_back(place_of(post));
-    return places;
 }
 
 /// For each place the nearest of those before it, after which its height is foretold; itself for the first.
@@ -72,80 +68,80 @@ std::vector<std::size_t> models_of(std::span<const Place> places) {
     return models;
 }
 
-void append_fine_places(std::vector<std::uint8_t>& bytes, std::span<const Place> places) {
+struct PlaceModels {
+    NumberModel count;
+    NumberModel post_gap;
+    NumberModel cell_gap;
+    NumberModel code;
+    NumberModel height;
+};
+
+/// Nothing where it is not below the limit.
+std::optional<std::uint64_t> read_below(RangeDecoder& bytes, NumberModel& model, std::uint64_t limit) {
+    const std::uint64_t number = bytes.number(model);
+    return number < limit ? std::optional{number} : std::nullopt;
+}
+
+void write_fine_places(RangeEncoder& bytes, PlaceModels& models, std::span<const Place> places) {
     std::vector<InCell> posts;
     for (const Place place : places) posts.push_back(in_cell(place));
     std::ranges::sort(posts);
     std::uint32_t cell = 0;
     for (const InCell post : posts) {
-        append_sum(bytes, post.cell - cell);
+        bytes.number(models.cell_gap, post.cell - cell);
+        bytes.number(models.code, post.code);
         cell = post.cell;
     }
-    std::vector<std::uint8_t> escaped;
-    for (const InCell post : posts) {
-        bytes.push_back(static_cast<std::uint8_t>(std::min<std::uint64_t>(post.code, kEscape)));
-        if (post.code >= kEscape) append_varint(escaped, post.code - kEscape);
-    }
-    bytes.insert(bytes.end(), escaped.begin(), escaped.end());
 }
 
-void append_fine_heights(std::vector<std::uint8_t>& bytes, const NestedMesh& mesh,
-                         std::span<const Place> places, double height_step_m) {
-    std::vector<std::uint32_t> quanta, residuals;
+void write_heights(RangeEncoder& bytes, PlaceModels& models, const NestedMesh& mesh,
+                   std::span<const Place> places, double height_step_m) {
+    std::vector<std::uint32_t> quanta;
     for (const auto& post : mesh.fine_posts)
         quanta.push_back(static_cast<std::uint32_t>(to_quanta(post.height_m, height_step_m)));
-    const auto models = models_of(places);
+    const auto before = models_of(places);
     for (std::size_t i = 0; i < quanta.size(); ++i)
-        residuals.push_back(zigzag(i == 0 ? quanta[0] : quanta[i] - quanta[models[i]]));
-    const std::uint32_t largest = residuals.empty() ? 0 : std::ranges::max(residuals);
-    const auto planes = static_cast<std::size_t>((std::bit_width(largest) + 7) / 8);
-    bytes.push_back(static_cast<std::uint8_t>(planes));
-    for (std::size_t plane = 0; plane < planes; ++plane) {
-        for (const std::uint32_t residual : residuals)
-            bytes.push_back(static_cast<std::uint8_t>(residual >> (8 * plane)));
-    }
+        bytes.number(models.height, zigzag(i == 0 ? quanta[0] : quanta[i] - quanta[before[i]]));
 }
 
-bool read_posts(ByteReader& bytes, std::vector<std::uint16_t>& posts) {
-    std::size_t next = 0;
-    for (std::uint16_t& post : posts) {
-        next += bytes.sum();
-        if (next >= kMaxVertices) return false;
-        post = static_cast<std::uint16_t>(next++);
+std::optional<std::vector<std::uint16_t>> read_posts(RangeDecoder& bytes, PlaceModels& models,
+                                                     std::size_t count) {
+    std::vector<std::uint16_t> posts;
+    std::uint64_t next = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto gap = read_below(bytes, models.post_gap, kMaxVertices - next);
+        if (!gap) return std::nullopt;
+        posts.push_back(static_cast<std::uint16_t>(next + *gap));
+        next += *gap + 1;
     }
-    return true;
+    return posts;
 }
 
-bool read_fine_places(ByteReader& bytes, std::vector<Place>& places) {
-    std::vector<InCell> posts(places.size());
-    std::size_t cell = 0;
-    for (InCell& post : posts) {
-        cell += bytes.sum();
-        if (cell >= kMaxVertices) return false;
-        post.cell = static_cast<std::uint32_t>(cell);
+std::optional<std::vector<Place>> read_fine_places(RangeDecoder& bytes, PlaceModels& models,
+                                                   std::size_t count) {
+    std::vector<Place> places;
+    std::uint64_t cell = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto gap = read_below(bytes, models.cell_gap, kMaxVertices - cell);
+        const auto code = read_below(bytes, models.code, kCellCodes);
+        if (!gap || !code) return std::nullopt;
+        cell += *gap;
+        const Place place = place_of(InCell{static_cast<std::uint32_t>(cell), *code});
+        if (std::max(place.x, place.y) > std::int32_t{kPlaceUnits}) return std::nullopt;
+        places.push_back(place);
     }
-    for (InCell& post : posts) post.code = bytes.number<std::uint8_t>();
-    for (InCell& post : posts) {
-        if (post.code == kEscape) post.code += bytes.varint();
-        if (post.code >= kCellCodes) return false;
-    }
-    std::ranges::transform(posts, places.begin(), place_of_code);
     std::ranges::sort(places, {}, [](Place place) { return std::tuple{place.y, place.x}; });
-    return std::ranges::all_of(
-        places, [](Place place) { return std::max(place.x, place.y) <= std::int32_t{kPlaceUnits}; });
+    return places;
 }
 
-std::vector<float> read_fine_heights(ByteReader& bytes, std::span<const Place> places, double height_step_m) {
-    const auto models = models_of(places);
-    const std::size_t planes = std::min<std::size_t>(bytes.number<std::uint8_t>(), kMaxPlanes);
+std::vector<float> read_heights(RangeDecoder& bytes, PlaceModels& models, std::span<const Place> places,
+                                double height_step_m) {
+    const auto before = models_of(places);
     std::vector<std::uint32_t> quanta(places.size(), 0);
-    for (std::size_t plane = 0; plane < planes; ++plane) {
-        for (std::uint32_t& residual : quanta)
-            residual |= std::uint32_t{bytes.number<std::uint8_t>()} << (8 * plane);
-    }
     std::vector<float> heights_m;
     for (std::size_t i = 0; i < quanta.size(); ++i) {
-        quanta[i] = unzigzag(quanta[i]) + (i == 0 ? 0 : quanta[models[i]]);
+        const auto residual = unzigzag(static_cast<std::uint32_t>(bytes.number(models.height)));
+        quanta[i] = residual + (i == 0 ? 0 : quanta[before[i]]);
         heights_m.push_back(to_metres(static_cast<std::int32_t>(quanta[i]), height_step_m));
     }
     return heights_m;
@@ -153,36 +149,35 @@ std::vector<float> read_fine_heights(ByteReader& bytes, std::span<const Place> p
 
 }  // namespace
 
-std::vector<std::uint8_t> encode_places(const NestedMesh& mesh, double height_step_m) {
-    std::vector<std::uint8_t> bytes;
-    append_le(bytes, static_cast<std::uint16_t>(mesh.posts.size()));
-    append_le(bytes, static_cast<std::uint16_t>(mesh.fine_posts.size()));
+void encode_places(RangeEncoder& bytes, const NestedMesh& mesh, double height_step_m) {
+    PlaceModels models;
+    bytes.number(models.count, mesh.posts.size());
+    bytes.number(models.count, mesh.fine_posts.size());
     std::size_t next = 0;
     for (const std::uint16_t post : mesh.posts) {
-        append_sum(bytes, post - next);
+        bytes.number(models.post_gap, post - next);
         next = post + std::size_t{1};
     }
-    const auto places = places_of(mesh.fine_posts);
-    append_fine_places(bytes, places);
-    append_fine_heights(bytes, mesh, places, height_step_m);
-    return bytes;
+    std::vector<Place> places;
+    for (const auto& post : mesh.fine_posts) places.push_back(place_of(post));
+    write_fine_places(bytes, models, places);
+    write_heights(bytes, models, mesh, places, height_step_m);
 }
 
-tl::expected<DecodedPlaces, std::string> decode_places(ByteReader& bytes, double height_step_m) {
-    const std::size_t posts = bytes.number<std::uint16_t>(), fine = bytes.number<std::uint16_t>();
-    if (posts + fine > kMaxVertices) return tl::unexpected(std::string{"it has more vertices than posts"});
-    DecodedPlaces decoded;
-    decoded.posts.resize(posts);
-    std::vector<Place> places(fine);
-    if (!read_posts(bytes, decoded.posts) || !read_fine_places(bytes, places)) {
-        return tl::unexpected(std::string{"a vertex lies outside the tile"});
+tl::expected<DecodedPlaces, std::string> decode_places(RangeDecoder& bytes, double height_step_m) {
+    PlaceModels models;
+    const auto own = read_below(bytes, models.count, kMaxVertices + 1);
+    const auto fine = read_below(bytes, models.count, kMaxVertices + 1);
+    if (!own || !fine) return tl::unexpected(std::string{"it has more vertices than posts"});
+    auto posts = read_posts(bytes, models, *own);
+    const auto places = posts ? read_fine_places(bytes, models, *fine) : std::nullopt;
+    if (!places) return tl::unexpected(std::string{"a vertex lies outside the tile"});
+    const auto heights_m = read_heights(bytes, models, *places, height_step_m);
+    DecodedPlaces decoded{std::move(*posts), {}};
+    for (std::size_t i = 0; i < places->size(); ++i) {
+        decoded.fine_posts.push_back({static_cast<std::uint32_t>((*places)[i].x),
+                                      static_cast<std::uint32_t>((*places)[i].y), heights_m[i]});
     }
-    const auto heights_m = read_fine_heights(bytes, places, height_step_m);
-    for (std::size_t i = 0; i < fine; ++i) {
-        decoded.fine_posts.push_back(
-            {static_cast<std::uint32_t>(places[i].x), static_cast<std::uint32_t>(places[i].y), heights_m[i]});
-    }
-    if (bytes.failed()) return tl::unexpected(std::string{"its vertices are cut short"});
     return decoded;
 }
 

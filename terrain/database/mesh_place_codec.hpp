@@ -8,20 +8,21 @@
 
 #include <tl/expected.hpp>
 
-#include "terrain/database/byte_stream.hpp"
 #include "terrain/database/database.hpp"
+#include "terrain/database/range_coder.hpp"
 
 namespace eyepoint::terrain {
 
 /// The mesh is of sound structure (check_structure).
-[[nodiscard]] std::vector<std::uint8_t> encode_places(const NestedMesh& mesh, double height_step_m);
+void encode_places(RangeEncoder& bytes, const NestedMesh& mesh, double height_step_m);
 
 struct DecodedPlaces {
     std::vector<std::uint16_t> posts;
     std::vector<NestedMesh::FinePost> fine_posts;
 };
-/// Reads what encode_places wrote. At most 33 x 33 vertices, all in the tile, in order; the rest is not
-/// checked. On failure: the fault.
-[[nodiscard]] tl::expected<DecodedPlaces, std::string> decode_places(ByteReader& bytes, double height_step_m);
+/// Reads what encode_places wrote. From other bytes: at most 33 x 33 posts and as many fine posts, all in the
+/// tile; the rest is not checked. On failure: the fault.
+[[nodiscard]] tl::expected<DecodedPlaces, std::string> decode_places(RangeDecoder& bytes,
+                                                                     double height_step_m);
 
 }  // namespace eyepoint::terrain

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "terrain/database/mesh_gates.hpp"
 #include "terrain/database/mesh_places.hpp"
 
 namespace eyepoint::terrain {
@@ -29,7 +30,7 @@ Fault check_sizes(const NestedMesh& mesh) {
         return tl::unexpected(fmt::format("it has {} vertices, {} levels and {} targets", expected,
                                           mesh.gone_level.size(), mesh.target.size()));
     }
-    if (mesh.triangles.size() % 3 != 0) {
+    if (mesh.triangles.size() % 3 != 0 || mesh.triangles.size() > 3 * kMaxTriangles) {
         return tl::unexpected(fmt::format("its triangles have {} corners", mesh.triangles.size()));
     }
     return {};

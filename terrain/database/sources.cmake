@@ -10,6 +10,7 @@ target_sources(eyepoint_terrain PRIVATE
     database/mesh_place_codec.cpp
     database/mesh_places.cpp
     database/mesh_structure.cpp
+    database/range_coder.cpp
     database/shard.cpp
     database/virtual_tile.cpp
 )
