@@ -1,0 +1,39 @@
+/// Leaves out of a selection of nested meshes the cells that nearer terrain hides.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "terrain/block/cell_bounds.hpp"
+#include "terrain/lod/lod_method.hpp"
+#include "terrain/lod/terrain_horizon.hpp"
+
+namespace eyepoint::terrain {
+
+/// Goes through the draws near to far: a block whose bounds (Block::bounds) are below the horizon is left
+/// out, then cells of the others; what is left raises the horizon. No pixel changes by it.
+///
+/// Off, so that the selection comes back as it was, for a view without an upright picture (upright_view), and
+/// for an eye below the surface, or so near it that the near plane could cut it. A block whose bounds are not
+/// known, or are not good as far away as it is drawn, is drawn and hides nothing. Thread use: one thread.
+/// Allocates only while its scratch space grows.
+class HorizonCulling {
+  public:
+    /// selection: one draw a block, each the whole of a level's list, near to far. eye_above_ground_m: height
+    /// of the eye above the full-resolution surface. Draws come back in the same order, a block's visible
+    /// cells in as few draws as they have runs; short gaps between runs are drawn. `triangles_hidden` counts
+    /// those left out because terrain hides them; cells outside the view are left out too, uncounted.
+    [[nodiscard]] Selection cull(const LodView& view, double eye_above_ground_m, Selection selection);
+
+  private:
+    struct Frame;
+
+    void cull_block(const Frame& frame, const BlockDraw& draw, Selection& selection);
+    void raise(const struct ProjectedNodes& nodes, std::uint64_t visible);
+    void keep_cells(const BlockDraw& draw, std::uint64_t drawn);
+
+    TerrainHorizon horizon_;
+    std::vector<BlockDraw> kept_;
+};
+
+}  // namespace eyepoint::terrain
