@@ -23,11 +23,12 @@ double distance_to_axis_m(double latitude_deg) {
     return terrain::kEquatorialRadiusM / std::sqrt(1.0 - kEccentricity2 * sine * sine);
 }
 
-/// So fine that a tile is about 2^20 units across, 0.6 mm at a depth of 15; vertices may lie 500 tiles away
-/// (post_error.cpp, kMapLimit).
+/// A millimetre, or a 2^24th of a large tile, a 2^20th of a small one: vertices may lie 30 tiles and 300 km
+/// away (post_error.cpp, kMapLimit), in small tiles 500 tiles.
 double map_unit_m(TileId tile) {
-    constexpr double kMetresPerDegree = 111000.0;
-    return terrain::tile_side_deg(tile.depth) * kMetresPerDegree / (1 << 20);
+    constexpr double kMetresPerDegree = 111000.0, kMillimetre = 1.0 / 1024.0;
+    const double side_m = terrain::tile_side_deg(tile.depth) * kMetresPerDegree;
+    return std::min(side_m / (1 << 20), std::max(side_m / (1 << 24), kMillimetre));
 }
 
 PostTile::Place place_of(const PostTile& tile, const Ecef& post) {
