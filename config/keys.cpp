@@ -15,11 +15,20 @@ using namespace std::string_view_literals;
 // In the order of the enumerators.
 constexpr std::array kOutputKinds = {"window"sv, "pictures"sv, "video"sv, "none"sv};
 constexpr std::array kVerticalDatums = {"msl"sv, "ellipsoid"sv};
+constexpr std::array kSwitches = {"off"sv, "on"sv};
+constexpr std::array kShadings = {"forward"sv, "deferred"sv, "automatic"sv};
+constexpr std::array kShows = {"terrain"sv, "wireframe"sv, "levels"sv};
 
 template <typename Enum>
 constexpr std::span<const std::string_view> names_of() {
     if constexpr (std::is_same_v<Enum, OutputKind>) {
         return kOutputKinds;
+    } else if constexpr (std::is_same_v<Enum, Switch>) {
+        return kSwitches;
+    } else if constexpr (std::is_same_v<Enum, Shading>) {
+        return kShadings;
+    } else if constexpr (std::is_same_v<Enum, Show>) {
+        return kShows;
     } else {
         static_assert(std::is_same_v<Enum, VerticalDatum>);
         return kVerticalDatums;
@@ -109,6 +118,8 @@ constexpr std::array kSections = {
     Section{"terrain", "The Earth that is drawn"},
     Section{"host", "The simulator that sends the eyepoint"},
     Section{"view", "The picture's size, and where the eye is on the vehicle"},
+    Section{"lod", "How levels of detail follow each other"},
+    Section{"render", "How pictures are drawn"},
     Section{"frame", "Frame rate and end of the run"},
     Section{"environment", "Air and sun"},
     Section{"output", "Where the frames go"},
@@ -117,6 +128,8 @@ constexpr std::array kSections = {
 constexpr auto kTerrain = &Settings::terrain;
 constexpr auto kHost = &Settings::host;
 constexpr auto kView = &Settings::view;
+constexpr auto kLod = &Settings::lod;
+constexpr auto kRender = &Settings::render;
 constexpr auto kFrame = &Settings::frame;
 constexpr auto kEnvironment = &Settings::environment;
 constexpr auto kOutput = &Settings::output;
@@ -184,6 +197,26 @@ constexpr std::array kKeys = {
     whole(0, 65535,
           row<kView, &ViewSettings::cigi_view>("view", "cigi_view",
                                                "Which of a CIGI host's views this channel draws")),
+
+    number(0.0, 1.0,
+           row<kLod, &LodSettings::slack>("lod", "slack",
+                                          "What a choice of level that is kept from frame to frame may "
+                                          "exceed tau_px by, as a share of it")),
+    choice(kSwitches, row<kLod, &LodSettings::morph>(
+                          "lod", "morph", "Whether terrain slides from level to level; otherwise it jumps")),
+
+    choice(kShadings,
+           row<kRender, &RenderSettings::shading>(
+               "render", "shading",
+               "Whether terrain is shaded while its triangles are drawn, or after them, once a pixel; "
+               "automatic: the "
+               "faster one at the first view, so that two runs may differ by a step of brightness")),
+    choice(
+        kShows,
+        row<kRender, &RenderSettings::show>(
+            "render", "show",
+            "The terrain, its triangles' edges, or its levels of detail by colour; in a window the keys N, "
+            "W and L")),
 
     number(1.0, 1000.0, row<kFrame, &FrameSettings::rate_hz>("frame", "rate_hz", "Frames a second")),
     whole(0, 1e12,

@@ -9,6 +9,9 @@ namespace eyepoint::config {
 
 enum class OutputKind : std::uint8_t { Window, Pictures, Video, None };
 enum class VerticalDatum : std::uint8_t { Msl, Ellipsoid };
+enum class Switch : std::uint8_t { Off, On };
+enum class Shading : std::uint8_t { Forward, Deferred, Automatic };
+enum class Show : std::uint8_t { Terrain, Wireframe, Levels };
 
 struct TerrainSettings {
     std::string database;  ///< folder of the terrain database
@@ -37,6 +40,17 @@ struct ViewSettings {
     std::uint16_t cigi_view = 0;  ///< which of a CIGI host's views this channel draws
 };
 
+struct LodSettings {
+    double slack = 0.1;         ///< share of the tolerance that a cached choice may use on top of it, 0..1
+    Switch morph = Switch::On;  ///< whether vertices slide from level to level
+};
+
+struct RenderSettings {
+    Shading shading =
+        Shading::Automatic;     ///< whether the terrain's shader runs with the triangles or after them
+    Show show = Show::Terrain;  ///< the terrain, or how it is drawn
+};
+
 struct FrameSettings {
     double rate_hz = 60.0;     ///< 1..1000
     std::uint64_t frames = 0;  ///< end after so many; 0: no end
@@ -59,6 +73,8 @@ struct Settings {
     TerrainSettings terrain;
     HostSettings host;
     ViewSettings view;
+    LodSettings lod;
+    RenderSettings render;
     FrameSettings frame;
     EnvironmentSettings environment;
     OutputSettings output;

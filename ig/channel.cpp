@@ -103,10 +103,38 @@ Expected<Graphics> open_graphics(const config::Settings& settings, const Channel
     return graphics;
 }
 
+Shading shading_of(config::Shading shading) {
+    switch (shading) {
+        case config::Shading::Forward:
+            return Shading::Forward;
+        case config::Shading::Deferred:
+            return Shading::Deferred;
+        case config::Shading::Automatic:
+            break;
+    }
+    return Shading::Automatic;
+}
+
+Show show_of(config::Show show) {
+    switch (show) {
+        case config::Show::Wireframe:
+            return Show::Wireframe;
+        case config::Show::Levels:
+            return Show::Levels;
+        case config::Show::Terrain:
+            break;
+    }
+    return Show::Terrain;
+}
+
 SceneOptions scene_options(const config::Settings& settings) {
     SceneOptions options;
     options.lod_method = settings.terrain.lod_method;
     options.tau_px = settings.terrain.tau_px;
+    options.slack = settings.lod.slack;
+    options.morph = settings.lod.morph == config::Switch::On;
+    options.shading = shading_of(settings.render.shading);
+    options.show = show_of(settings.render.show);
     options.visibility_m = settings.environment.visibility_m;
     options.sun_azimuth_deg = settings.environment.sun_azimuth_deg;
     options.sun_elevation_deg = settings.environment.sun_elevation_deg;

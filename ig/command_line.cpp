@@ -38,6 +38,7 @@ constexpr KeyFlag kKeyFlags[] = {
      "End so long after the host's last packet"},
     {"--record", "output.record", "FILE", "Write the frame record, one JSON line a frame"},
     {"--tau", "terrain.tau_px", "PIXELS", "Largest error of the drawn terrain"},
+    {"--show", "render.show", "WHAT", "terrain, wireframe, or levels: a colour for every level of detail"},
 };
 
 std::string long_name(const std::string& names) { return names.substr(names.find("--")); }

@@ -134,6 +134,7 @@ tl::expected<FrameEntry, std::string> FrameLoop::draw(const Eyepoint& eyepoint, 
     entry.new_packet =
         std::exchange(drawn_arrival_ns_, state.arrival.realtime_ns) != state.arrival.realtime_ns;
 
+    if (const auto show = parts_.output.wanted_show()) parts_.scene.set_show(*show);
     frame_buffer_.bind();
     const std::int64_t draw_ns = parts_.clock.now_ns();
     entry.drawn = parts_.scene.draw(eyepoint.view);

@@ -3,10 +3,15 @@
 #include <ctime>
 #include <utility>
 
-#include <glm/geometric.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "ig/lod_view.hpp"
 #include "ig/render/frame_uniforms.hpp"
+#include "ig/render/resolve_pass.hpp"
+#include "ig/render/shading_trial.hpp"
 #include "ig/render/sky_pass.hpp"
+#include "ig/render/surface_buffer.hpp"
 #include "ig/render/terrain_pass.hpp"
 #include "terrain/lod/lod_method.hpp"
 #include "terrain/pager/pager.hpp"
@@ -24,69 +29,118 @@ double thread_cpu_ms() {
     return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
 }
 
-terrain::LodView lod_view(const View& view, const SceneOptions& options) {
-    const auto inward = [&](const glm::dvec3& normal) { return view.axes * glm::normalize(normal); };
-    return {.eye = view.eye_ecef,
-            .sides = {inward({1.0, 0.0, view.left}), inward({-1.0, 0.0, -view.right}),
-                      inward({0.0, 1.0, view.bottom}), inward({0.0, -1.0, -view.top})},
-            .kappa_px = view.pixels_per_radian(),
-            .tau_px = options.tau_px,
-            .near_m = view.near_m};
-}
-
 class TerrainScene final : public Scene {
   public:
     TerrainScene(std::unique_ptr<terrain::Pager> pager, std::unique_ptr<terrain::LodMethod> method,
-                 TerrainPass terrain, SkyPass sky, SceneOptions options)
+                 TerrainPass terrain, ResolvePass resolve, SkyPass sky, SceneOptions options)
         : options_(std::move(options)),
+          shading_(options_.shading),
           pager_(std::move(pager)),
           method_(std::move(method)),
           terrain_(std::move(terrain)),
+          resolve_(std::move(resolve)),
           sky_(std::move(sky)) {
         glNamedBufferStorage(uniforms_.name(), sizeof(FrameUniforms), nullptr, GL_DYNAMIC_STORAGE_BIT);
     }
 
     void warm_up(const View& view) override;
     FrameStatistics draw(const View& view) override;
+    void draw_floor(const View& view) override;
+    void set_show(Show show) override { options_.show = show; }
+    [[nodiscard]] Shading shading() const override { return shading_; }
     std::uint64_t load_all(const View& view) override;
     std::vector<std::string> take_faults() override { return pager_->take_faults(); }
 
   private:
     [[nodiscard]] const terrain::Selection& select(const View& view);
     void begin(const View& view);
+    [[nodiscard]] bool raster_surface(const View& view);
+    void draw_terrain(const View& view, Shading shading);
+    void draw_shown(const View& view, const terrain::Selection& selection);
 
     SceneOptions options_;
+    Shading shading_;
     std::unique_ptr<terrain::Pager> pager_;
     std::unique_ptr<terrain::LodMethod> method_;
     TerrainPass terrain_;
+    SurfaceBuffer surface_;
+    ResolvePass resolve_;
     SkyPass sky_;
     GlBuffer uniforms_;
     std::uint64_t frame_ = 0;
+    bool have_surface_ = false;
 };
 
 /// Chooses what to draw from the blocks there are and wishes for the missing ones.
 const terrain::Selection& TerrainScene::select(const View& view) {
     ++frame_;
-    const terrain::Selection& selection = method_->select(lod_view(view, options_), pager_->tree(), frame_);
+    const terrain::Selection& selection = method_->select(
+        lod_view(view, options_.tau_px, options_.slack * options_.tau_px), pager_->tree(), frame_);
     pager_->request(selection.wishes);
     return selection;
 }
 
-/// Uniforms, viewport, an empty picture: magenta, infinitely far (reverse Z: depth 0).
+/// Uniforms, viewport, an empty picture, infinitely far (reverse Z: depth 0): magenta, or plain behind wires
+/// and levels.
 void TerrainScene::begin(const View& view) {
     const FrameUniforms uniforms = frame_uniforms(view, options_);
     glNamedBufferSubData(uniforms_.name(), 0, sizeof(uniforms), &uniforms);
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, uniforms_.name());
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     glViewport(0, 0, view.width_px, view.height_px);
-    glClearColor(1.0F, 0.0F, 1.0F, 1.0F);
+    if (options_.show == Show::Terrain || options_.sentinel) {
+        glClearColor(1.0F, 0.0F, 1.0F, 1.0F);
+    } else {
+        glClearColor(0.80F, 0.86F, 0.93F, 1.0F);
+    }
     glClearDepth(0.0);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
+/// The raster pass of deferred shading; false where the target has no depth to share.
+bool TerrainScene::raster_surface(const View& view) {
+    if (!surface_.begin(view.width_px, view.height_px)) return false;
+    terrain_.draw_surface();
+    surface_.end();
+    have_surface_ = true;
+    return true;
+}
+
+/// A whole picture of the selection that the terrain pass has taken in.
+void TerrainScene::draw_terrain(const View& view, Shading shading) {
+    begin(view);
+    if (shading == Shading::Deferred && raster_surface(view)) {
+        resolve_.draw(surface_, terrain_.list(), terrain_.noise());
+    } else {
+        terrain_.draw();
+    }
+    if (!options_.sentinel) sky_.draw();
+}
+
+void TerrainScene::draw_shown(const View& view, const terrain::Selection& selection) {
+    switch (options_.show) {
+        case Show::Terrain:
+            if (shading_ == Shading::Automatic)
+                shading_ = faster_shading([&](Shading shading) { draw_terrain(view, shading); });
+            return draw_terrain(view, shading_);
+        case Show::Wireframe:
+            begin(view);
+            return terrain_.draw_wireframe();
+        case Show::Levels:
+            begin(view);
+            return terrain_.draw_levels(selection);
+    }
+}
+
 void TerrainScene::warm_up(const View& view) {
     begin(view);
-    terrain_.warm_up(select(view), frame_);
+    (void)terrain_.update(select(view), frame_);
+    terrain_.warm_up(false);
+    if (options_.shading != Shading::Forward && surface_.begin(view.width_px, view.height_px)) {
+        terrain_.warm_up(true);
+        surface_.end();
+        resolve_.warm_up(surface_, terrain_.list(), terrain_.noise());
+    }
     sky_.draw();
 }
 
@@ -96,13 +150,23 @@ FrameStatistics TerrainScene::draw(const View& view) {
     const terrain::Selection& selection = select(view);
     const double selection_ms = thread_cpu_ms() - start_ms;
 
-    begin(view);
-    FrameStatistics statistics = terrain_.draw(selection, frame_);
-    if (!options_.sentinel) sky_.draw();
+    FrameStatistics statistics = terrain_.update(selection, frame_);
+    draw_shown(view, selection);
     statistics.selection_cpu_ms = selection_ms;
     statistics.loads_pending = static_cast<std::uint32_t>(pager_->pending());
     statistics.tau_px = options_.tau_px;
     return statistics;
+}
+
+void TerrainScene::draw_floor(const View& view) {
+    begin(view);
+    if (!have_surface_) {
+        (void)raster_surface(view);
+        begin(view);
+    }
+    terrain_.draw_depth();
+    resolve_.draw(surface_, terrain_.list(), terrain_.noise());
+    if (!options_.sentinel) sky_.draw();
 }
 
 std::uint64_t TerrainScene::load_all(const View& view) {
@@ -122,16 +186,20 @@ tl::expected<std::unique_ptr<Scene>, std::string> Scene::create(
     std::shared_ptr<const terrain::Database> database, const SceneOptions& options) {
     auto method = terrain::make_lod_method(options.lod_method);
     if (!method)
-        return tl::unexpected("no LOD method is called '" + options.lod_method + "'; there is 'regular'");
-    auto terrain = TerrainPass::create(method->indices());
+        return tl::unexpected(fmt::format("no LOD method is called '{}'; there is '{}'", options.lod_method,
+                                          fmt::join(terrain::lod_method_names(), "', '")));
+    auto terrain = TerrainPass::create(*method);
     if (!terrain) return tl::unexpected(terrain.error());
+    auto resolve = ResolvePass::create();
+    if (!resolve) return tl::unexpected(resolve.error());
     auto sky = SkyPass::create();
     if (!sky) return tl::unexpected(sky.error());
-    auto pager =
-        terrain::Pager::create(std::move(database), {options.loader_threads, options.block_cache_bytes});
+    auto pager = terrain::Pager::create(std::move(database), {.threads = options.loader_threads,
+                                                              .mesh = method->mesh_kind(),
+                                                              .cache_bytes = options.block_cache_bytes});
     if (!pager) return tl::unexpected(pager.error());
     return std::make_unique<TerrainScene>(std::move(*pager), std::move(method), std::move(*terrain),
-                                          std::move(*sky), options);
+                                          std::move(*resolve), std::move(*sky), options);
 }
 
 }  // namespace eyepoint::ig

@@ -1,5 +1,6 @@
 /// The scene: terrain, sky and light drawn for a view into the bound framebuffer. Needs a current OpenGL 4.5
-/// core context; one thread.
+/// core context; one thread. Deferred shading needs that framebuffer to have a depth renderbuffer; without
+/// one, shading is forward.
 #pragma once
 
 #include <cstdint>
@@ -11,6 +12,7 @@
 #include <tl/expected.hpp>
 
 #include "ig/frame_statistics.hpp"
+#include "ig/shading.hpp"
 #include "ig/view.hpp"
 
 namespace eyepoint::terrain {
@@ -22,9 +24,13 @@ namespace eyepoint::ig {
 struct SceneOptions {
     std::string lod_method = "regular";  ///< see terrain::lod_method_names()
     double tau_px = 2.0;                 ///< tolerance, pixels
-    double visibility_m = 100000.0;      ///< meteorological: contrast 2% at this distance, at sea level
-    double sun_azimuth_deg = 150.0;      ///< from true north, at the eye
-    double sun_elevation_deg = 32.0;     ///< above the horizon, at the eye
+    double slack = 0.1;  ///< s as a share of tau: what a choice of level once made may exceed tau by
+    bool morph = true;   ///< vertices slide from level to level; otherwise they jump
+    Shading shading = Shading::Automatic;
+    Show show = Show::Terrain;
+    double visibility_m = 100000.0;   ///< meteorological: contrast 2% at this distance, at sea level
+    double sun_azimuth_deg = 150.0;   ///< from true north, at the eye
+    double sun_elevation_deg = 32.0;  ///< above the horizon, at the eye
     unsigned loader_threads = 1;
     std::uint64_t block_cache_bytes = 512ULL << 20;
     bool sentinel = false;  ///< test aid: no sky, the clear colour stays where no terrain is drawn
@@ -40,8 +46,17 @@ class Scene {
     /// Draws every program and state pair once, at the view's size, so that no later frame pays for a first
     /// use.
     virtual void warm_up(const View& view) = 0;
-    /// Draws one frame of the newest terrain there is; never waits for a load.
+    /// Draws one frame of the newest terrain there is; never waits for a load. Where shading is automatic the
+    /// first frame is drawn a few times more, to choose it.
     virtual FrameStatistics draw(const View& view) = 0;
+    /// What any renderer of the same mesh must do at least, to measure draw() against: the last draw()'s
+    /// triangles with depth alone, then the terrain's shader and the sky once a pixel. The picture means
+    /// nothing: what is shaded is the surface of the last deferred frame, or of the first call's.
+    virtual void draw_floor(const View& view) = 0;
+    /// From the next frame on.
+    virtual void set_show(Show show) = 0;
+    /// The one in force; Automatic until the first frame has chosen.
+    [[nodiscard]] virtual Shading shading() const = 0;
     /// Loads, waiting, until nothing that the view asks for is missing (or cannot be read): for tests,
     /// pictures and virtual time. Returns the number of blocks loaded.
     virtual std::uint64_t load_all(const View& view) = 0;

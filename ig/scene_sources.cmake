@@ -8,12 +8,18 @@ add_custom_command(OUTPUT ${EYEPOINT_SHADER_TEXT}
 target_sources(eyepoint_ig PRIVATE
     ${EYEPOINT_SHADER_TEXT}
     render/block_store.cpp
+    render/draw_list.cpp
     render/frame_uniforms.cpp
     render/image_store.cpp
+    render/index_store.cpp
     render/noise_texture.cpp
     render/program.cpp
+    render/range_allocator.cpp
+    render/resolve_pass.cpp
+    render/shading_trial.cpp
     render/sky_pass.cpp
     render/slot_table.cpp
+    render/surface_buffer.cpp
     render/terrain_pass.cpp
     recorded_flight.cpp
     scene.cpp

@@ -54,6 +54,9 @@ tl::expected<Window, std::string> Window::create(const Options& options) {
                         "graphics driver, or use --headless with --output, --video or --none",
                         last_glfw_error()));
     }
+    made.keys_ = std::make_unique<Keys>();
+    glfwSetWindowUserPointer(made.window_.get(), made.keys_.get());
+    glfwSetKeyCallback(made.window_.get(), hear_key);
     glfwMakeContextCurrent(made.window_.get());
     glfwSwapInterval(0);
     auto identity = check_current_context();
@@ -72,6 +75,16 @@ bool Window::close_requested() const {
     return glfwWindowShouldClose(window_.get()) == GLFW_TRUE ||
            glfwGetKey(window_.get(), GLFW_KEY_ESCAPE) == GLFW_PRESS;
 }
+
+void Window::hear_key(GLFWwindow* window, int key, int, int action, int) {
+    auto& keys = *static_cast<Keys*>(glfwGetWindowUserPointer(window));
+    if (action != GLFW_PRESS) return;
+    if (key == GLFW_KEY_N) keys.show = Show::Terrain;
+    if (key == GLFW_KEY_W) keys.show = Show::Wireframe;
+    if (key == GLFW_KEY_L) keys.show = Show::Levels;
+}
+
+std::optional<Show> Window::wanted_show() const { return keys_->show; }
 
 void Window::handle_events() { glfwPollEvents(); }
 

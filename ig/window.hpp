@@ -2,12 +2,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <tl/expected.hpp>
 
 #include "ig/gl_identity.hpp"
 #include "ig/picture.hpp"
+#include "ig/shading.hpp"
 
 struct GLFWwindow;
 
@@ -31,6 +33,9 @@ class Window {
     /// Of the drawable area, pixels; at least 1x1, also while the window is an icon.
     [[nodiscard]] PictureSize size() const;
     [[nodiscard]] bool close_requested() const;
+    /// What the newest of the keys N (normal), W (wireframe) and L (levels) asked for; none before one was
+    /// hit.
+    [[nodiscard]] std::optional<Show> wanted_show() const;
     /// Takes in the keyboard and the window's events; once a frame.
     void handle_events();
     /// Shows what has been drawn into the default framebuffer.
@@ -47,7 +52,13 @@ class Window {
         void operator()(GLFWwindow* window) const;
     };
 
+    struct Keys {
+        std::optional<Show> show;
+    };
+    static void hear_key(GLFWwindow* window, int key, int scancode, int action, int modifiers);
+
     std::unique_ptr<Library> library_;
+    std::unique_ptr<Keys> keys_;  ///< where GLFW's callback finds it when the window is moved
     std::unique_ptr<GLFWwindow, Destroy> window_;
     GlIdentity identity_;
 };

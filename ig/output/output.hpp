@@ -9,6 +9,7 @@
 
 #include "ig/frame_buffer.hpp"
 #include "ig/picture.hpp"
+#include "ig/shading.hpp"
 
 namespace eyepoint::ig {
 
@@ -31,6 +32,8 @@ class Output {
     [[nodiscard]] virtual tl::expected<void, std::string> finish() { return {}; }
     /// The size that frames are to have from now on, if the output has a say in it.
     [[nodiscard]] virtual std::optional<PictureSize> wanted_size() const { return std::nullopt; }
+    /// What frames are to show from now on, if the output has a say in it.
+    [[nodiscard]] virtual std::optional<Show> wanted_show() const { return std::nullopt; }
     /// Once a frame, also while there is nothing to show: false when the user asks for the end.
     [[nodiscard]] virtual bool keep_going() { return true; }
 };

@@ -48,6 +48,7 @@ class WindowOutput final : public Output {
     explicit WindowOutput(Window& window) : window_(window) {}
     tl::expected<void, std::string> show(const FrameBuffer& frame, const FrameMoment& moment) override;
     std::optional<PictureSize> wanted_size() const override { return window_.size(); }
+    std::optional<Show> wanted_show() const override { return window_.wanted_show(); }
     bool keep_going() override;
 
   private:

@@ -1,9 +1,11 @@
-/// Blocks on the graphics card: one vertex buffer of equal slots.
+/// Blocks on the graphics card: one vertex buffer of equal slots, and the index lists of nested meshes.
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "ig/render/gl_objects.hpp"
+#include "ig/render/index_store.hpp"
 #include "ig/render/slot_table.hpp"
 #include "terrain/block/block.hpp"
 
@@ -17,19 +19,34 @@ class BlockStore {
     /// The slot of a block, good for this frame; uploads the block if it is not there yet. When all slots are
     /// in use in this frame, the store doubles.
     [[nodiscard]] std::uint32_t slot_of(const terrain::Block& block, std::uint64_t frame);
+    /// Where the index list of the block in a slot begins in index_buffer(), in indices.
+    [[nodiscard]] std::uint32_t first_index(std::uint32_t slot) const { return lists_[slot].first; }
 
     [[nodiscard]] GLuint vertex_buffer() const { return vertices_.name(); }
+    /// The vertex buffer as a buffer texture of pairs of words, GL_RG32UI: five texels a vertex.
+    [[nodiscard]] GLuint vertex_words() const { return vertex_words_.name(); }
+    [[nodiscard]] GLuint index_buffer() const { return indices_.buffer(); }
     [[nodiscard]] std::uint32_t slots() const { return slots_.size(); }
-    /// Blocks uploaded since the store was made.
+    /// Since the store was made.
     [[nodiscard]] std::uint64_t uploads() const { return uploads_; }
-    static constexpr std::uint64_t kBytesPerBlock = terrain::kBlockVertices * sizeof(terrain::BlockVertex);
+    [[nodiscard]] std::uint64_t uploaded_bytes() const { return uploaded_bytes_; }
 
   private:
+    struct List {
+        std::uint32_t first = 0;
+        std::uint32_t count = 0;
+    };
+
+    void upload(const terrain::Block& block, std::uint32_t slot);
     void grow();
 
     GlBuffer vertices_;
+    GlTexture vertex_words_;
+    IndexStore indices_;
     SlotTable slots_;
+    std::vector<List> lists_;  ///< by slot
     std::uint64_t uploads_ = 0;
+    std::uint64_t uploaded_bytes_ = 0;
 };
 
 }  // namespace eyepoint::ig

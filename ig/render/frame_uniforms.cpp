@@ -7,6 +7,7 @@
 
 #include "terrain/block/block.hpp"
 #include "terrain/geodesy/earth.hpp"
+#include "terrain/lod/error_level.hpp"
 
 namespace eyepoint::ig {
 
@@ -84,6 +85,8 @@ FrameUniforms frame_uniforms(const View& view, const SceneOptions& options) {
     const glm::dvec3 to_sun = sun_direction(enu, options);
     const double height_m = std::max(place.height.metres(), 0.0), sun_cosine = glm::dot(to_sun, enu[2]);
     constexpr double kShareBeforeScattering = 0.4;
+    const double level_scale =
+        terrain::level_scale(options.tau_px + options.slack * options.tau_px, view.pixels_per_radian());
     const glm::dvec3 corner = view.axes * glm::dvec3{view.left, view.bottom, -1.0};
     return {
         .clip_from_relative = glm::mat4{clip_from_relative(view)},
@@ -95,9 +98,10 @@ FrameUniforms frame_uniforms(const View& view, const SceneOptions& options) {
         .skylight = padded(sunlight(height_m, sun_cosine, haze, kShareBeforeScattering)),
         .air_at_eye = padded(
             glm::dvec3{std::exp(-height_m / kAirScaleHeightM), std::exp(-height_m / kHazeScaleHeightM), 0.0}),
-        .ray_corner = padded(corner),
+        .ray_corner = padded(corner, view.near_m),
         .ray_right = padded(view.axes[0] * (view.right - view.left)),
         .ray_up = padded(view.axes[1] * (view.top - view.bottom)),
+        .motion = padded(glm::dvec3{level_scale * level_scale, options.morph ? 1.0 : 0.0, 0.0}),
     };
 }
 

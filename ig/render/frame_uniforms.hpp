@@ -24,6 +24,7 @@ struct FrameUniforms {
     glm::vec4 ray_corner{0.0F};
     glm::vec4 ray_right{0.0F};
     glm::vec4 ray_up{0.0F};
+    glm::vec4 motion{0.0F};
 };
 
 /// From positions relative to the eye, in ECEF axes, to clip space: reverse Z (1 at near_m, 0 at infinity),

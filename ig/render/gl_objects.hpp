@@ -51,6 +51,14 @@ struct TextureTraits {
     }
     static void destroy(GLuint name) { glDeleteTextures(1, &name); }
 };
+struct FramebufferTraits {
+    static GLuint create() {
+        GLuint name = 0;
+        glCreateFramebuffers(1, &name);
+        return name;
+    }
+    static void destroy(GLuint name) { glDeleteFramebuffers(1, &name); }
+};
 struct ProgramTraits {
     static GLuint create() { return glCreateProgram(); }
     static void destroy(GLuint name) { glDeleteProgram(name); }
@@ -63,6 +71,7 @@ struct ShaderTraits {
 using GlBuffer = GlObject<BufferTraits>;
 using GlVertexArray = GlObject<VertexArrayTraits>;
 using GlTexture = GlObject<TextureTraits>;
+using GlFramebuffer = GlObject<FramebufferTraits>;
 using GlProgram = GlObject<ProgramTraits>;
 using GlShader = GlObject<ShaderTraits>;
 

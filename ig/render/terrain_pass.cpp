@@ -1,7 +1,10 @@
 #include "ig/render/terrain_pass.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstddef>
+
+#include <glm/vec4.hpp>
 
 #include "ig/render/noise_texture.hpp"
 #include "ig/render/program.hpp"
@@ -10,145 +13,192 @@ namespace eyepoint::ig {
 
 namespace {
 
-constexpr std::uint32_t kFirstSlots = 1024;
-constexpr std::uint32_t kImageLayers = 512;
-/// The noise repeats every side of a tile of this depth (0.18 degrees, about 20 km), the same over the whole
-/// Earth.
-constexpr int kNoiseDepth = 10;
-constexpr double kMetresPerDegree = 111320.0;
+using Files = std::vector<std::string_view>;
 
-double fraction(double value) { return value - std::floor(value); }
+/// Texture units, as in the shaders.
+constexpr GLuint kImageUnit = 0, kNoiseUnit = 1, kVertexUnit = 2;
 
-const terrain::TileNode* nearest_with_image(const terrain::TileNode& node) {
-    const terrain::TileNode* candidate = &node;
-    while (candidate != nullptr && !(candidate->block && candidate->block->image))
-        candidate = candidate->parent;
-    return candidate;
+constexpr glm::vec4 kPaper{0.93F, 0.93F, 0.90F, 0.35F};
+constexpr glm::vec4 kInk{0.10F, 0.16F, 0.30F, 0.0F};
+
+ProgramSource source(bool nested, Files fragment_files, Files defines) {
+    Files vertex{"frame.glsl", "block.glsl", "tile.glsl"};
+    if (nested) {
+        vertex.emplace_back("nested.glsl");
+        defines.emplace_back("NESTED");
+    }
+    vertex.emplace_back("terrain.vert.glsl");
+    return {std::move(vertex), std::move(fragment_files), std::move(defines)};
+}
+
+Files features(std::size_t set) {
+    Files defines;
+    if ((set & kWaterFeature) != 0) defines.emplace_back("WATER");
+    if ((set & kImageFeature) != 0) defines.emplace_back("IMAGES");
+    return defines;
+}
+
+/// Fully saturated, brightness 0..1; the hue turns once over 0..1.
+glm::vec4 painted(double hue, double brightness) {
+    const auto channel = [&](double shift) {
+        const double turn = hue + shift - std::floor(hue + shift);
+        return static_cast<float>(brightness *
+                                  (0.12 + 0.88 * std::clamp(std::abs(turn * 6.0 - 3.0) - 1.0, 0.0, 1.0)));
+    };
+    return {channel(0.0), channel(2.0 / 3.0), channel(1.0 / 3.0), 0.6F};
+}
+
+/// Levels next to each other are told apart: eight hues, two levels from red to red being eight apart.
+glm::vec4 colour_of(const terrain::BlockDraw& draw) {
+    constexpr double kHues = 8.0;
+    const double depth = draw.node->tile.depth;
+    return painted(draw.level * 3.0 / kHues, 0.55 + 0.15 * std::fmod(depth, 4.0));
 }
 
 }  // namespace
 
-tl::expected<TerrainPass, std::string> TerrainPass::create(std::span<const std::uint16_t> indices) {
-    std::vector<Variant> variants;
-    for (std::size_t features = 0; features < kVariants; ++features) {
-        ProgramSource source{{"frame.glsl", "terrain.vert.glsl"},
-                             {"frame.glsl", "chapman.glsl", "atmosphere.glsl", "terrain.frag.glsl"},
-                             {}};
-        if ((features & kWater) != 0) source.defines.emplace_back("WATER");
-        if ((features & kImage) != 0) source.defines.emplace_back("IMAGES");
-        auto program = link_program(source);
+tl::expected<TerrainPass::Programs, std::string> TerrainPass::link(bool nested) {
+    Programs programs;
+    for (std::size_t set = 0; set < kFeatureSets; ++set) {
+        auto program = link_program(source(
+            nested, {"frame.glsl", "chapman.glsl", "atmosphere.glsl", "ground.glsl", "terrain.frag.glsl"},
+            features(set)));
         if (!program) return tl::unexpected(program.error());
-        variants.push_back({std::move(*program), {}, {}, {}});
+        programs.shaded.push_back(std::move(*program));
     }
-    return TerrainPass{std::move(variants), indices};
+    const std::array<ProgramSource, 3> others{
+        source(nested, {"surface.glsl", "surface.frag.glsl"}, {"SURFACE"}),
+        source(nested, {"depth.frag.glsl"}, {}), source(nested, {"frame.glsl", "shown.frag.glsl"}, {})};
+    for (const ProgramSource& other : others) {
+        auto program = link_program(other);
+        if (!program) return tl::unexpected(program.error());
+        programs.others.push_back(std::move(*program));
+    }
+    return programs;
 }
 
-TerrainPass::TerrainPass(std::vector<Variant> variants, std::span<const std::uint16_t> indices)
-    : variants_(std::move(variants)),
-      noise_(make_noise_texture()),
-      blocks_(kFirstSlots),
-      images_(kImageLayers) {
-    glNamedBufferStorage(indices_.name(), static_cast<GLsizeiptr>(indices.size_bytes()), indices.data(), 0);
-    glVertexArrayElementBuffer(layout_.name(), indices_.name());
-    const auto attribute = [this](GLuint location, std::size_t offset) {
+tl::expected<TerrainPass, std::string> TerrainPass::create(const terrain::LodMethod& method) {
+    const bool nested = method.mesh_kind() == terrain::MeshKind::Nested;
+    auto programs = link(nested);
+    if (!programs) return tl::unexpected(programs.error());
+    return TerrainPass{std::move(*programs), method.indices(), nested};
+}
+
+TerrainPass::TerrainPass(Programs programs, std::span<const std::uint16_t> indices, bool nested)
+    : programs_(std::move(programs)), nested_(nested), noise_(make_noise_texture()), list_(nested) {
+    if (!nested)
+        glNamedBufferStorage(indices_.name(), static_cast<GLsizeiptr>(indices.size_bytes()), indices.data(),
+                             0);
+    describe_vertices();
+}
+
+void TerrainPass::describe_vertices() const {
+    using Vertex = terrain::BlockVertex;
+    for (GLuint location = 0; location < 3; ++location) {
         glEnableVertexArrayAttrib(layout_.name(), location);
         glVertexArrayAttribBinding(layout_.name(), location, 0);
-        return static_cast<GLuint>(offset);
-    };
-    using Vertex = terrain::BlockVertex;
-    glVertexArrayAttribFormat(layout_.name(), 0, 3, GL_FLOAT, GL_FALSE, attribute(0, offsetof(Vertex, high)));
-    glVertexArrayAttribFormat(layout_.name(), 1, 3, GL_FLOAT, GL_FALSE, attribute(1, offsetof(Vertex, low)));
-    glVertexArrayAttribFormat(layout_.name(), 2, 4, GL_INT_2_10_10_10_REV, GL_TRUE,
-                              attribute(2, offsetof(Vertex, normal)));
-    glVertexArrayAttribIFormat(layout_.name(), 3, 1, GL_UNSIGNED_INT,
-                               attribute(3, offsetof(Vertex, surface)));
+    }
+    glVertexArrayAttribFormat(layout_.name(), 0, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, high));
+    glVertexArrayAttribFormat(layout_.name(), 1, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, low));
+    static_assert(offsetof(Vertex, motion) == offsetof(Vertex, normal) + 12);
+    glVertexArrayAttribIFormat(layout_.name(), 2, 4, GL_UNSIGNED_INT, offsetof(Vertex, normal));
 }
 
-TerrainPass::BlockRecord TerrainPass::describe(const terrain::TileNode& node, std::uint64_t frame) {
-    BlockRecord record{{-1.0F, 1.0F, 0.0F, 0.0F}, {1.0F, 0.0F, 0.0F, 0.0F}};
-    const auto depth = static_cast<int>(node.tile.depth);
-    const double noise_scale = std::ldexp(1.0, kNoiseDepth - depth);
-    record.noise = glm::vec4{glm::dvec4{noise_scale, fraction(node.tile.x * noise_scale),
-                                        fraction(node.tile.y * noise_scale), 0.0}};
-    if (const terrain::TileNode* pictured = nearest_with_image(node)) {
-        const auto layer = images_.layer_of(*pictured->block->image, frame);
-        const double scale = std::ldexp(1.0, static_cast<int>(pictured->tile.depth) - depth);
-        const double texel_m =
-            terrain::tile_side_deg(pictured->tile.depth) / terrain::kImageTexels * kMetresPerDegree;
-        if (layer)
-            record.image =
-                glm::vec4{glm::dvec4{static_cast<double>(*layer), scale, fraction(node.tile.x * scale),
-                                     fraction(node.tile.y * scale)}};
-        record.noise.w = static_cast<float>(texel_m);
-    }
-    return record;
+FrameStatistics TerrainPass::update(const terrain::Selection& selection, std::uint64_t frame) {
+    const std::uint64_t blocks_before = list_.uploaded_blocks(), bytes_before = list_.uploaded_bytes();
+    list_.update(selection, frame);
+    FrameStatistics statistics;
+    statistics.triangles = selection.triangles;
+    statistics.triangles_hidden = selection.triangles_hidden;
+    statistics.draws = static_cast<std::uint32_t>(selection.draws.size());
+    statistics.blocks_drawn = list_.blocks();
+    statistics.blocks_tested = selection.blocks_tested;
+    statistics.blocks_reused = selection.blocks_reused;
+    statistics.blocks_uploaded = static_cast<std::uint32_t>(list_.uploaded_blocks() - blocks_before);
+    statistics.bytes_uploaded = list_.uploaded_bytes() - bytes_before;
+    return statistics;
 }
 
-void TerrainPass::upload(const terrain::Selection& selection, std::uint64_t frame) {
-    for (Variant& variant : variants_) {
-        variant.counts.clear();
-        variant.offsets.clear();
-        variant.base_vertices.clear();
-    }
-    for (const terrain::BlockDraw& draw : selection.draws) {
-        const terrain::Block& block = *draw.node->block;
-        const std::uint32_t slot = blocks_.slot_of(block, frame);
-        records_.resize(blocks_.slots());
-        records_[slot] = describe(*draw.node, frame);
-        Variant& variant =
-            variants_[(block.has_water ? kWater : 0) + (records_[slot].image.x >= 0.0F ? kImage : 0)];
-        variant.counts.push_back(static_cast<GLsizei>(draw.indices.count));
-        // NOLINTNEXTLINE(performance-no-int-to-ptr): OpenGL takes offsets into a buffer as pointers.
-        variant.offsets.push_back(reinterpret_cast<const void*>(draw.indices.first * sizeof(std::uint16_t)));
-        variant.base_vertices.push_back(static_cast<GLint>(slot * terrain::kBlockVertices));
-    }
-    glNamedBufferData(record_buffer_.name(), static_cast<GLsizeiptr>(records_.size() * sizeof(BlockRecord)),
-                      records_.data(), GL_STREAM_DRAW);
-}
-
-void TerrainPass::bind() const {
+void TerrainPass::begin() const {
+    const BlockStore& blocks = list_.block_store();
     glBindVertexArray(layout_.name());
-    glVertexArrayVertexBuffer(layout_.name(), 0, blocks_.vertex_buffer(), 0, sizeof(terrain::BlockVertex));
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, record_buffer_.name());
-    glBindTextureUnit(0, images_.texture());
-    glBindTextureUnit(1, noise_.name());
+    glVertexArrayVertexBuffer(layout_.name(), 0, blocks.vertex_buffer(), 0, sizeof(terrain::BlockVertex));
+    glVertexArrayElementBuffer(layout_.name(), nested_ ? blocks.index_buffer() : indices_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, list_.record_buffer());
+    glBindTextureUnit(kImageUnit, list_.images().texture());
+    glBindTextureUnit(kNoiseUnit, noise_.name());
+    glBindTextureUnit(kVertexUnit, blocks.vertex_words());
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GREATER);
     glEnable(GL_CULL_FACE);
 }
 
-void TerrainPass::warm_up(const terrain::Selection& selection, std::uint64_t frame) {
-    upload(selection, frame);
-    bind();
-    for (const Variant& variant : variants_) {
-        glUseProgram(variant.program.name());
+void TerrainPass::warm_up(bool surface) const {
+    begin();
+    const auto once = [](const GlProgram& program) {
+        glUseProgram(program.name());
         glDrawElements(GL_TRIANGLES, 3, GL_UNSIGNED_SHORT, nullptr);
+    };
+    if (surface) {
+        once(programs_.others[kSurface]);
+    } else {
+        for (const GlProgram& program : programs_.shaded) once(program);
     }
     glDisable(GL_CULL_FACE);
 }
 
-FrameStatistics TerrainPass::draw(const terrain::Selection& selection, std::uint64_t frame) {
-    const std::uint64_t blocks_before = blocks_.uploads(), images_before = images_.uploads();
-    upload(selection, frame);
-    bind();
-    FrameStatistics statistics;
-    for (const Variant& variant : variants_) {
-        if (variant.counts.empty()) continue;
-        glUseProgram(variant.program.name());
-        glMultiDrawElementsBaseVertex(GL_TRIANGLES, variant.counts.data(), GL_UNSIGNED_SHORT,
-                                      variant.offsets.data(), static_cast<GLsizei>(variant.counts.size()),
-                                      variant.base_vertices.data());
-        statistics.draws += static_cast<std::uint32_t>(variant.counts.size());
+void TerrainPass::draw() const {
+    begin();
+    for (std::size_t set = 0; set < kFeatureSets; ++set) {
+        if (list_.of_features(set).empty()) continue;
+        glUseProgram(programs_.shaded[set].name());
+        list_.of_features(set).draw();
     }
     glDisable(GL_CULL_FACE);
-    statistics.triangles = selection.triangles;
-    statistics.blocks_drawn = static_cast<std::uint32_t>(selection.draws.size());
-    statistics.blocks_tested = selection.blocks_tested;
-    statistics.blocks_uploaded = static_cast<std::uint32_t>(blocks_.uploads() - blocks_before);
-    constexpr std::uint64_t kImageBytes = std::uint64_t{terrain::kImageTexels} * terrain::kImageTexels * 4;
-    statistics.bytes_uploaded = statistics.blocks_uploaded * BlockStore::kBytesPerBlock +
-                                (images_.uploads() - images_before) * kImageBytes;
-    return statistics;
+}
+
+void TerrainPass::draw_surface() const {
+    begin();
+    glUseProgram(programs_.others[kSurface].name());
+    list_.all().draw();
+    glDisable(GL_CULL_FACE);
+}
+
+void TerrainPass::draw_depth() const {
+    begin();
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    glUseProgram(programs_.others[kDepth].name());
+    list_.all().draw();
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glDisable(GL_CULL_FACE);
+}
+
+void TerrainPass::draw_wireframe() const {
+    begin();
+    glUseProgram(programs_.others[kShown].name());
+    glUniform4fv(0, 1, &kPaper.x);
+    glEnable(GL_POLYGON_OFFSET_FILL);
+    glPolygonOffset(-1.0F, -4.0F);  // reverse Z: away from the eye
+    list_.all().draw();
+    glDisable(GL_POLYGON_OFFSET_FILL);
+    glUniform4fv(0, 1, &kInk.x);
+    glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+    list_.all().draw();
+    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+    glDisable(GL_CULL_FACE);
+}
+
+void TerrainPass::draw_levels(const terrain::Selection& selection) const {
+    begin();
+    glUseProgram(programs_.others[kShown].name());
+    const DrawCommands& all = list_.all();
+    for (std::size_t i = 0; i < selection.draws.size(); ++i) {
+        const glm::vec4 paint = colour_of(selection.draws[i]);
+        glUniform4fv(0, 1, &paint.x);
+        glDrawElementsBaseVertex(GL_TRIANGLES, all.counts[i], GL_UNSIGNED_SHORT, all.offsets[i],
+                                 all.base_vertices[i]);
+    }
+    glDisable(GL_CULL_FACE);
 }
 
 }  // namespace eyepoint::ig

@@ -1,4 +1,4 @@
-/// Draws a selection of blocks.
+/// Draws a selection of blocks, in each of the ways there are.
 #pragma once
 
 #include <cstdint>
@@ -6,63 +6,62 @@
 #include <string>
 #include <vector>
 
-#include <glm/vec4.hpp>
 #include <tl/expected.hpp>
 
 #include "ig/frame_statistics.hpp"
-#include "ig/render/block_store.hpp"
+#include "ig/render/draw_list.hpp"
 #include "ig/render/gl_objects.hpp"
-#include "ig/render/image_store.hpp"
 #include "terrain/lod/lod_method.hpp"
 
 namespace eyepoint::ig {
 
+/// All draws need the frame's uniforms bound.
 class TerrainPass {
   public:
-    /// indices: the LOD method's index list, copied to the graphics card.
-    [[nodiscard]] static tl::expected<TerrainPass, std::string> create(
-        std::span<const std::uint16_t> indices);
+    [[nodiscard]] static tl::expected<TerrainPass, std::string> create(const terrain::LodMethod& method);
 
-    /// Draws one triangle of a selection's first block with every shader, so that no later frame pays for a
-    /// first use.
-    void warm_up(const terrain::Selection& selection, std::uint64_t frame);
+    /// Takes in a selection: uploads what is not on the card yet. Fills in triangles, blocks and uploads of
+    /// the statistics it returns.
+    [[nodiscard]] FrameStatistics update(const terrain::Selection& selection, std::uint64_t frame);
+    [[nodiscard]] const DrawList& list() const { return list_; }
 
-    /// Needs the frame's uniforms bound. Uploads what is not on the card yet, then draws all blocks at once.
-    /// Fills in triangles, draws, blocks and uploads of the statistics it returns.
-    [[nodiscard]] FrameStatistics draw(const terrain::Selection& selection, std::uint64_t frame);
+    /// The last update's selection, shaded.
+    void draw() const;
+    /// What shading needs of it, into the bound SurfaceBuffer.
+    void draw_surface() const;
+    /// Its depth alone.
+    void draw_depth() const;
+    /// One triangle with every program of those, so that no later frame pays for a first use. The target must
+    /// be one for draw() or, where `surface`, a SurfaceBuffer.
+    void warm_up(bool surface) const;
+
+    /// The selection as lines, hidden ones left out.
+    void draw_wireframe() const;
+    /// Each draw in a colour: hue by its level, brightness by its tile's depth. The selection is the last
+    /// update's.
+    void draw_levels(const terrain::Selection& selection) const;
+
+    /// The noise that ground is varied with.
+    [[nodiscard]] GLuint noise() const { return noise_.name(); }
 
   private:
-    /// std430 layout of BlockRecord in terrain.vert.glsl.
-    struct BlockRecord {
-        glm::vec4 image;
-        glm::vec4 noise;
+    struct Programs {
+        std::vector<GlProgram> shaded;  ///< by set of features
+        std::vector<GlProgram> others;  ///< by Other
     };
+    enum Other : std::size_t { kSurface, kDepth, kShown };
 
-    /// Blocks with water and blocks with pictures have shaders of their own, so that the others do not pay
-    /// for them.
-    static constexpr std::size_t kWater = 1;
-    static constexpr std::size_t kImage = 2;
-    static constexpr std::size_t kVariants = 4;
-    struct Variant {
-        GlProgram program;
-        std::vector<GLsizei> counts;
-        std::vector<const void*> offsets;
-        std::vector<GLint> base_vertices;
-    };
+    [[nodiscard]] static tl::expected<Programs, std::string> link(bool nested);
+    TerrainPass(Programs programs, std::span<const std::uint16_t> indices, bool nested);
+    void describe_vertices() const;
+    void begin() const;
 
-    TerrainPass(std::vector<Variant> variants, std::span<const std::uint16_t> indices);
-    [[nodiscard]] BlockRecord describe(const terrain::TileNode& node, std::uint64_t frame);
-    void upload(const terrain::Selection& selection, std::uint64_t frame);
-    void bind() const;
-
-    std::vector<Variant> variants_;  ///< by the sum of their features
+    Programs programs_;
+    bool nested_;
     GlVertexArray layout_;
-    GlBuffer indices_;
-    GlBuffer record_buffer_;
+    GlBuffer indices_;  ///< of a method whose blocks are grids
     GlTexture noise_;
-    BlockStore blocks_;
-    ImageStore images_;
-    std::vector<BlockRecord> records_;  ///< by slot
+    DrawList list_;
 };
 
 }  // namespace eyepoint::ig

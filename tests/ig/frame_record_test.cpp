@@ -22,6 +22,8 @@ FrameEntry sample_entry() {
     entry.arrival_to_complete_ms = 21.5;
     entry.gpu_ms = 9.75;
     entry.drawn.triangles = 123'456;
+    entry.drawn.triangles_hidden = 40'000;
+    entry.drawn.blocks_reused = 321;
     entry.drawn.tau_px = 1.5;
     entry.eye = {46.4, 8.125, terrain::EllipsoidalHeight{3102.5}};
     return entry;
@@ -43,7 +45,9 @@ TEST(FrameRecordLine, HoldsEveryKeyOfTheFormat) {
                                          "triangles",
                                          "draws",
                                          "blocks_drawn",
+                                         "triangles_hidden",
                                          "blocks_tested",
+                                         "blocks_reused",
                                          "tau_px",
                                          "loads_pending",
                                          "blocks_uploaded",
@@ -66,6 +70,8 @@ TEST(FrameRecordLine, ValuesComeBackAsTheyWere) {
     EXPECT_EQ(line["arrival_to_complete_ms"], 21.5);
     EXPECT_EQ(line["gpu_ms"], 9.75);
     EXPECT_EQ(line["triangles"], 123'456);
+    EXPECT_EQ(line["triangles_hidden"], 40'000);
+    EXPECT_EQ(line["blocks_reused"], 321);
     EXPECT_EQ(line["latitude_deg"], 46.4);
     EXPECT_EQ(line["ellipsoidal_height_m"], 3102.5);
 }

@@ -81,7 +81,7 @@ void leave_for_looking(const OIIO::ImageBuf& expected, const OIIO::ImageBuf& got
 
 class GoldenPicture : public ::testing::TestWithParam<Golden> {
   protected:
-    GoldenPicture() : renderer_(open_synthetic_terrain(), kSize, {}) {}
+    GoldenPicture() : renderer_(open_synthetic_terrain(), kSize, {.shading = ig::Shading::Forward}) {}
 
     [[nodiscard]] ig::Picture draw(const Golden& golden) {
         if (golden.pose) return renderer_.draw_complete(view_of(*golden.pose));

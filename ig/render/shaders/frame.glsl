@@ -8,7 +8,8 @@ layout(std140, binding = 0) uniform Frame {
     vec4 sunlight;            // that reaches the ground near the eye; w: haze extinction at sea level, 1/m
     vec4 skylight;            // sunlight that is left to scatter in the air
     vec4 air_at_eye;          // density of air (x) and haze (y) at the eye, of that at sea level
-    vec4 ray_corner;          // direction to the lower left corner of the picture
+    vec4 ray_corner;          // direction to the lower left corner of the picture, 1 along the view's axis; w: nearest distance
     vec4 ray_right;           // from there to the lower right corner
     vec4 ray_up;              // and to the upper left
+    vec4 motion;              // nested meshes: squared scale of levels (error_level.hpp); 1: vertices slide, 0: they jump
 };

@@ -1,0 +1,149 @@
+#include "ig/render/draw_list.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace eyepoint::ig {
+
+namespace {
+
+constexpr std::uint32_t kFirstSlots = 1024;
+constexpr std::uint32_t kImageLayers = 512;
+/// The noise repeats every side of a tile of this depth (0.18 degrees, about 20 km), the same over the whole
+/// Earth.
+constexpr int kNoiseDepth = 10;
+constexpr double kMetresPerDegree = 111320.0;
+
+/// Fields of BlockRecord::tree, as in block.glsl.
+constexpr std::uint32_t kNoSlot = 0xffff'ffff;
+constexpr std::uint32_t kQuadrantShift = 8;
+constexpr std::uint32_t kHasFloors = 1U << 16;
+
+double fraction(double value) { return value - std::floor(value); }
+
+const terrain::TileNode* nearest_with_image(const terrain::TileNode& node) {
+    const terrain::TileNode* candidate = &node;
+    while (candidate != nullptr && !(candidate->block && candidate->block->image))
+        candidate = candidate->parent;
+    return candidate;
+}
+
+bool any(const terrain::EdgeFloors& floors) {
+    return std::any_of(floors.begin(), floors.end(), [](std::uint8_t level) { return level != 0; });
+}
+
+}  // namespace
+
+void DrawCommands::clear() {
+    counts.clear();
+    offsets.clear();
+    base_vertices.clear();
+}
+
+void DrawCommands::add(terrain::IndexRange range, std::uint32_t first_index, std::uint32_t slot) {
+    const std::size_t offset = (std::size_t{first_index} + range.first) * sizeof(std::uint16_t);
+    counts.push_back(static_cast<GLsizei>(range.count));
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): OpenGL takes offsets into a buffer as pointers.
+    offsets.push_back(reinterpret_cast<const void*>(offset));
+    base_vertices.push_back(static_cast<GLint>(slot * terrain::kBlockVertices));
+}
+
+void DrawCommands::draw() const {
+    glMultiDrawElementsBaseVertex(GL_TRIANGLES, counts.data(), GL_UNSIGNED_SHORT, offsets.data(),
+                                  static_cast<GLsizei>(counts.size()), base_vertices.data());
+}
+
+DrawList::DrawList(bool nested)
+    : nested_(nested),
+      blocks_(kFirstSlots),
+      images_(kImageLayers),
+      record_words_(GLenum{GL_TEXTURE_BUFFER}) {}
+
+std::uint64_t DrawList::uploaded_bytes() const {
+    constexpr std::uint64_t kImageBytes = std::uint64_t{terrain::kImageTexels} * terrain::kImageTexels * 4;
+    return blocks_.uploaded_bytes() + images_.uploads() * kImageBytes;
+}
+
+void DrawList::update(const terrain::Selection& selection, std::uint64_t frame) {
+    all_.clear();
+    for (DrawCommands& commands : by_features_) commands.clear();
+    features_ = 0;
+    blocks_drawn_ = 0;
+    const terrain::TileNode* node = nullptr;
+    std::uint32_t slot = 0;
+    for (const terrain::BlockDraw& draw : selection.draws) {
+        if (draw.node != node) slot = place(*draw.node, frame);
+        node = draw.node;
+        if (drawn_in_frame_[slot] != frame) describe_drawn(draw, slot, frame);
+        add(draw, slot);
+    }
+    send_records();
+}
+
+/// The block's slot in this frame; in a nested mesh the ancestors have theirs too, and their records say so.
+std::uint32_t DrawList::place(const terrain::TileNode& node, std::uint64_t frame) {
+    const std::uint32_t slot = blocks_.slot_of(*node.block, frame);
+    if (blocks_.slots() > records_.size()) {
+        records_.resize(blocks_.slots());
+        placed_in_frame_.resize(blocks_.slots());
+        drawn_in_frame_.resize(blocks_.slots());
+    }
+    if (!nested_ || placed_in_frame_[slot] == frame) return slot;
+    placed_in_frame_[slot] = frame;
+    const std::uint32_t parent_slot = node.parent != nullptr ? place(*node.parent, frame) : kNoSlot;
+    records_[slot].tree = {parent_slot,
+                           node.block->last_level | static_cast<std::uint32_t>(terrain::quadrant(node.tile))
+                                                        << kQuadrantShift,
+                           0U, 0U};
+    return slot;
+}
+
+void DrawList::describe_drawn(const terrain::BlockDraw& draw, std::uint32_t slot, std::uint64_t frame) {
+    drawn_in_frame_[slot] = frame;
+    ++blocks_drawn_;
+    const glm::uvec4 tree = records_[slot].tree;
+    records_[slot] = describe(*draw.node, frame);
+    records_[slot].tree = tree;
+    if (any(draw.floors)) {
+        records_[slot].tree.y |= kHasFloors;
+        std::memcpy(&records_[slot].tree.z, draw.floors.data(), draw.floors.size());
+    }
+}
+
+DrawList::BlockRecord DrawList::describe(const terrain::TileNode& node, std::uint64_t frame) {
+    BlockRecord record{{-1.0F, 1.0F, 0.0F, 0.0F}, {1.0F, 0.0F, 0.0F, 0.0F}, {kNoSlot, 0U, 0U, 0U}};
+    const auto depth = static_cast<int>(node.tile.depth);
+    const double noise_scale = std::ldexp(1.0, kNoiseDepth - depth);
+    record.noise = glm::vec4{glm::dvec4{noise_scale, fraction(node.tile.x * noise_scale),
+                                        fraction(node.tile.y * noise_scale), 0.0}};
+    if (const terrain::TileNode* pictured = nearest_with_image(node)) {
+        const auto layer = images_.layer_of(*pictured->block->image, frame);
+        const double scale = std::ldexp(1.0, static_cast<int>(pictured->tile.depth) - depth);
+        const double texel_m =
+            terrain::tile_side_deg(pictured->tile.depth) / terrain::kImageTexels * kMetresPerDegree;
+        if (layer)
+            record.image =
+                glm::vec4{glm::dvec4{static_cast<double>(*layer), scale, fraction(node.tile.x * scale),
+                                     fraction(node.tile.y * scale)}};
+        record.noise.w = static_cast<float>(texel_m);
+    }
+    return record;
+}
+
+void DrawList::add(const terrain::BlockDraw& draw, std::uint32_t slot) {
+    const std::size_t set = (draw.node->block->has_water ? kWaterFeature : 0) +
+                            (records_[slot].image.x >= 0.0F ? kImageFeature : 0);
+    const std::uint32_t first_index = nested_ ? blocks_.first_index(slot) : 0;
+    features_ |= set;
+    all_.add(draw.indices, first_index, slot);
+    by_features_[set].add(draw.indices, first_index, slot);
+}
+
+void DrawList::send_records() {
+    glNamedBufferData(record_buffer_.name(), static_cast<GLsizeiptr>(records_.size() * sizeof(BlockRecord)),
+                      records_.data(), GL_STREAM_DRAW);
+    glTextureBuffer(record_words_.name(), GL_RGBA32F, record_buffer_.name());
+}
+
+}  // namespace eyepoint::ig

@@ -1,0 +1,90 @@
+/// A selection of blocks as the graphics card draws it: content in its slots, a record a block, and the
+/// commands.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec4.hpp>
+
+#include "ig/render/block_store.hpp"
+#include "ig/render/gl_objects.hpp"
+#include "ig/render/image_store.hpp"
+#include "terrain/lod/lod_method.hpp"
+
+namespace eyepoint::ig {
+
+/// Draws of one glMultiDrawElementsBaseVertex.
+struct DrawCommands {
+    std::vector<GLsizei> counts;
+    std::vector<const void*> offsets;
+    std::vector<GLint> base_vertices;
+
+    void clear();
+    void add(terrain::IndexRange range, std::uint32_t first_index, std::uint32_t slot);
+    void draw() const;
+    [[nodiscard]] bool empty() const { return counts.empty(); }
+};
+
+/// What a block's shading needs; sets of them are sums.
+inline constexpr std::size_t kWaterFeature = 1;
+inline constexpr std::size_t kImageFeature = 2;
+inline constexpr std::size_t kFeatureSets = 4;
+
+class DrawList {
+  public:
+    /// nested: draws refer to the blocks' own index lists, and a drawn block's ancestors are there with it,
+    /// for the walk of nested.glsl; otherwise draws refer to a list that the caller binds.
+    explicit DrawList(bool nested);
+
+    /// Takes in a selection: uploads what is not on the card yet.
+    void update(const terrain::Selection& selection, std::uint64_t frame);
+
+    /// All draws, near to far.
+    [[nodiscard]] const DrawCommands& all() const { return all_; }
+    /// Those that need exactly this set of features, near to far.
+    [[nodiscard]] const DrawCommands& of_features(std::size_t set) const { return by_features_[set]; }
+    /// Set of all features that any draw needs.
+    [[nodiscard]] std::size_t features() const { return features_; }
+    [[nodiscard]] std::uint32_t blocks() const { return blocks_drawn_; }
+
+    [[nodiscard]] const BlockStore& block_store() const { return blocks_; }
+    [[nodiscard]] const ImageStore& images() const { return images_; }
+    /// BlockRecord by slot (block.glsl), of the blocks of the last update.
+    [[nodiscard]] GLuint record_buffer() const { return record_buffer_.name(); }
+    /// The same as a buffer texture, GL_RGBA32F: three texels a record.
+    [[nodiscard]] GLuint record_words() const { return record_words_.name(); }
+    /// Sent to the card since the list was made.
+    [[nodiscard]] std::uint64_t uploaded_blocks() const { return blocks_.uploads(); }
+    [[nodiscard]] std::uint64_t uploaded_bytes() const;
+
+  private:
+    /// std430 layout of BlockRecord in block.glsl.
+    struct BlockRecord {
+        glm::vec4 image;
+        glm::vec4 noise;
+        glm::uvec4 tree;
+    };
+
+    [[nodiscard]] std::uint32_t place(const terrain::TileNode& node, std::uint64_t frame);
+    [[nodiscard]] BlockRecord describe(const terrain::TileNode& node, std::uint64_t frame);
+    void describe_drawn(const terrain::BlockDraw& draw, std::uint32_t slot, std::uint64_t frame);
+    void add(const terrain::BlockDraw& draw, std::uint32_t slot);
+    void send_records();
+
+    bool nested_;
+    BlockStore blocks_;
+    ImageStore images_;
+    GlBuffer record_buffer_;
+    GlTexture record_words_;
+    std::vector<BlockRecord> records_;            ///< by slot
+    std::vector<std::uint64_t> placed_in_frame_;  ///< by slot: the record's tree part is of that frame
+    std::vector<std::uint64_t> drawn_in_frame_;   ///< by slot: all of the record is
+    DrawCommands all_;
+    std::array<DrawCommands, kFeatureSets> by_features_;
+    std::size_t features_ = 0;
+    std::uint32_t blocks_drawn_ = 0;
+};
+
+}  // namespace eyepoint::ig

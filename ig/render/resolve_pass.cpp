@@ -1,0 +1,51 @@
+#include "ig/render/resolve_pass.hpp"
+
+#include "ig/render/program.hpp"
+
+namespace eyepoint::ig {
+
+tl::expected<ResolvePass, std::string> ResolvePass::create() {
+    std::vector<GlProgram> programs;
+    for (std::size_t set = 0; set < kFeatureSets; ++set) {
+        ProgramSource source{{"frame.glsl", "sky.vert.glsl"},
+                             {"frame.glsl", "tile.glsl", "chapman.glsl", "atmosphere.glsl", "ground.glsl",
+                              "surface.glsl", "resolve.frag.glsl"},
+                             {}};
+        if ((set & kWaterFeature) != 0) source.defines.emplace_back("WATER");
+        if ((set & kImageFeature) != 0) source.defines.emplace_back("IMAGES");
+        auto program = link_program(source);
+        if (!program) return tl::unexpected(program.error());
+        programs.push_back(std::move(*program));
+    }
+    return ResolvePass{std::move(programs)};
+}
+
+void ResolvePass::begin(const SurfaceBuffer& surface, const DrawList& list, GLuint noise) const {
+    glBindVertexArray(no_attributes_.name());
+    glBindTextureUnit(0, list.images().texture());
+    glBindTextureUnit(1, noise);
+    glBindTextureUnit(2, list.record_words());
+    glBindTextureUnit(3, surface.texture());
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LESS);  // the triangle is infinitely far: in front of it is what was drawn
+    glDepthMask(GL_FALSE);
+}
+
+void ResolvePass::cover(std::size_t features) const {
+    glUseProgram(programs_[features].name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void ResolvePass::draw(const SurfaceBuffer& surface, const DrawList& list, GLuint noise) const {
+    begin(surface, list, noise);
+    cover(list.features());
+    glDepthMask(GL_TRUE);
+}
+
+void ResolvePass::warm_up(const SurfaceBuffer& surface, const DrawList& list, GLuint noise) const {
+    begin(surface, list, noise);
+    for (std::size_t set = 0; set < kFeatureSets; ++set) cover(set);
+    glDepthMask(GL_TRUE);
+}
+
+}  // namespace eyepoint::ig

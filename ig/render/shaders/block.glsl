@@ -1,0 +1,33 @@
+// A block's vertices as the vertex shader gets them (terrain/block/block.hpp), and what is known of the block in a slot
+// (ig/render/draw_list.cpp).
+layout(location = 0) in vec3 high;
+layout(location = 1) in vec3 low;
+layout(location = 2) in uvec4 packed_rest;  // normal, surface, place, motion
+
+struct BlockRecord {
+    vec4 image;  // layer (negative: none), scale and offset of the picture's coordinates
+    vec4 noise;  // scale and offset of the noise's coordinates; w: metres a texel of the picture
+    uvec4 tree;  // parent's slot; last level, quadrant << 8, floors << 16; the floors of the edges' halves, a byte each
+};
+layout(std430, binding = 0) readonly buffer Blocks { BlockRecord blocks[]; };
+
+const int kBlockVertices = 33 * 33;
+const float kPlaceUnits = 32768.0;
+
+// What a vertex is: position relative to the eye, ECEF axes, metres; place in the drawn tile, 0..1.
+struct Vertex {
+    vec3 from_eye;
+    vec3 normal;
+    vec2 place;
+    float height;  // above the sea, metres
+    float water;
+};
+
+// The eye is subtracted part by part, so that what is left is small and exact; `precise` keeps the order, so that a
+// post shared by two blocks lands on the same bits from both.
+Vertex unpack(vec3 high_part, vec3 low_part, uvec3 rest) {
+    precise vec3 from_eye = (high_part - eye_high.xyz) + (low_part - eye_low.xyz);
+    ivec3 ten_bits = ivec3(int(rest.x) << 22, int(rest.x) << 12, int(rest.x) << 2) >> 22;
+    return Vertex(from_eye, max(vec3(ten_bits) / 511.0, -1.0), vec2(rest.z & 0xffffu, rest.z >> 16) / kPlaceUnits,
+                  float(rest.y & 0xffffu) * 0.25 - 1500.0, float((rest.y >> 16) & 1u));
+}
