@@ -27,7 +27,7 @@ void expect_exact(const testing::AnalyticTerrain& terrain, const terrain::LodVie
     EXPECT_TRUE(find_mesh_faults(mesh).whole());
 }
 
-constexpr double kFinestTauPx = 0.05;
+constexpr double kFinestTauPx = 0.004;
 
 TEST(PostError, IsRoundingAloneWhereEveryPostIsAVertex) {
     expect_exact(kSmallHills, look_north(46.4, 8.25, 6000.0, 30.0, kFinestTauPx));
