@@ -7,14 +7,15 @@
 #include <optional>
 #include <vector>
 
+#include "terrain/block/cell_bounds.hpp"
 #include "terrain/database/database.hpp"
 #include "terrain/geodesy/position.hpp"
 
 namespace eyepoint::terrain {
 
-/// How a vertex of a nested mesh moves (database.hpp, NestedMesh): low 16 bits: its target in the same block or, where
-/// it stays, the same vertex in the parent's block (kNoVertex in a root); bits 16..23: the level at which it has gone,
-/// or NestedMesh::kStays; bits 24..27: on the tile's west, east, south, north edge.
+/// How a vertex of a nested mesh moves (database.hpp, NestedMesh): low 16 bits: its target in the same block
+/// or, where it stays, the same vertex in the parent's block (kNoVertex in a root); bits 16..23: the level at
+/// which it has gone, or NestedMesh::kStays; bits 24..27: on the tile's west, east, south, north edge.
 using VertexMotion = std::uint32_t;
 inline constexpr std::uint32_t kNoVertex = 0xffff;
 
@@ -28,7 +29,8 @@ struct BlockVertex {
     std::uint32_t normal = 0;
     /// Low 16 bits: MSL height in quarters of a metre above kSurfaceFloorM; bit 16: water.
     std::uint32_t surface = 0;
-    /// Place in the tile, kVertexPlaceUnits a side (rounded down): x (east) in the low 16 bits, y (north) in the high.
+    /// Place in the tile, kVertexPlaceUnits a side (rounded down): x (east) in the low 16 bits, y (north) in
+    /// the high.
     std::uint32_t place = 0;
     VertexMotion motion = NestedMesh::kStays << 16 | kNoVertex;
 };
@@ -46,30 +48,34 @@ struct SplitPosition {
 };
 [[nodiscard]] SplitPosition split(const Ecef& point);
 
-/// What a block is unfolded to: a vertex for every post and the method's own index lists, or the tile's nested mesh
-/// with index lists of its own.
+/// What a block is unfolded to: a vertex for every post and the method's own index lists, or the tile's
+/// nested mesh with index lists of its own.
 enum class MeshKind : std::uint8_t { Grid, Nested };
 
 /// Cells of a nested mesh, by which its triangles are sorted: kMeshCells a side, counted like posts.
 inline constexpr int kMeshCells = 8;
 
-/// The index list of one level of a nested mesh. Triangles of cell c: from cell_first[c] to cell_first[c + 1], in
-/// indices of Block::indices. A triangle keeps the cell of the middle of the first level's triangle it comes from.
+/// The index list of one level of a nested mesh. Triangles of cell c: from cell_first[c] to cell_first[c +
+/// 1], in indices of Block::indices. A triangle keeps the cell of the middle of the first level's triangle it
+/// comes from.
 struct NestedLevel {
     std::array<std::uint32_t, kMeshCells * kMeshCells + 1> cell_first{};
     [[nodiscard]] std::uint32_t first() const { return cell_first.front(); }
     [[nodiscard]] std::uint32_t count() const { return cell_first.back() - cell_first.front(); }
 };
 
-/// Immutable once made. Index of a vertex of a grid: row * kBlockPosts + column, row 0 in the south, column 0 in the
-/// west; of a nested mesh: NestedMesh's.
+/// Immutable once made. Index of a vertex of a grid: row * kBlockPosts + column, row 0 in the south, column 0
+/// in the west; of a nested mesh: NestedMesh's.
 struct Block {
     BlockData data;
-    std::vector<BlockVertex> vertices;       ///< at most kBlockVertices
-    std::vector<std::uint16_t> indices;      ///< of all levels; empty for a grid
-    std::vector<NestedLevel> levels;         ///< from first_level to last_level; empty for a grid
+    std::vector<BlockVertex> vertices;   ///< at most kBlockVertices
+    std::vector<std::uint16_t> indices;  ///< of all levels; empty for a grid
+    std::vector<NestedLevel> levels;     ///< from first_level to last_level; empty for a grid
     std::uint8_t first_level = 0;
     std::uint8_t last_level = 0;
+    /// The exact places of the last of a nested mesh's vertices, NestedMesh::fine_posts; empty for a grid.
+    std::vector<NestedMesh::FinePost> fine_posts;
+    CellBounds bounds;               ///< of a nested mesh as it is drawn
     std::optional<ImageData> image;  ///< the tile's own picture, if it has one
     bool has_water = false;          ///< any post is water
     /// Memory it holds, bytes.
@@ -80,9 +86,11 @@ struct Block {
 /// heights on both sides of a post (the apron on the tile's edges).
 [[nodiscard]] std::shared_ptr<const Block> unfold(BlockData data, std::optional<ImageData> image);
 
-/// Unfolds a nested mesh: vertices, and the index lists of all its levels. `parent` is the parent's block, unfolded the
-/// same way; nullptr for a root. A vertex that stays takes the parent's normal, so that it has one in every block.
-[[nodiscard]] std::shared_ptr<const Block> unfold(BlockData data, const NodeInfo& info, const NestedMesh& mesh,
-                                                  const Block* parent, std::optional<ImageData> image);
+/// Unfolds a nested mesh: vertices, and the index lists of all its levels. `parent` is the parent's block,
+/// unfolded the same way; nullptr for a root. A vertex that stays takes the parent's normal, so that it has
+/// one in every block.
+[[nodiscard]] std::shared_ptr<const Block> unfold(BlockData data, const NodeInfo& info,
+                                                  const NestedMesh& mesh, const Block* parent,
+                                                  std::optional<ImageData> image);
 
 }  // namespace eyepoint::terrain

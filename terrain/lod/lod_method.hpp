@@ -27,15 +27,16 @@ struct LodView {
     double near_m = 0.5;    ///< nothing nearer is drawn
 };
 
-/// Triangles of a mesh: part of an index list, the method's or the block's own (LodMethod::mesh_kind). Indices name
-/// vertices of one block.
+/// Triangles of a mesh: part of an index list, the method's or the block's own (LodMethod::mesh_kind).
+/// Indices name vertices of one block.
 struct IndexRange {
     std::uint32_t first = 0;
     std::uint32_t count = 0;
 };
 
-/// Vertices on an edge of a nested mesh are drawn as if the level asked for were at least so high: what is beyond the
-/// edge has no finer ones because it is not loaded. By edge (kEdges) and half (the one nearer the edge's start first).
+/// Vertices on an edge of a nested mesh are drawn as if the level asked for were at least so high: what is
+/// beyond the edge has no finer ones because it is not loaded. By edge (kEdges) and half (the one nearer the
+/// edge's start first).
 using EdgeFloors = std::array<std::uint8_t, 8>;
 
 /// A block may be drawn in several parts; all of a block's draws have the same floors.
@@ -51,8 +52,9 @@ struct Selection {
     std::vector<BlockDraw> draws;
     std::vector<BlockRequest> wishes;
     std::uint64_t triangles = 0;
-    std::uint32_t blocks_tested = 0;   ///< candidates looked at
-    std::uint32_t blocks_reused = 0;   ///< of them: the choice of an earlier frame stood
+    std::uint32_t blocks_tested = 0;     ///< candidates looked at
+    std::uint32_t blocks_reused = 0;     ///< of them: the choice of an earlier frame stood
+    std::uint32_t blocks_chosen = 0;     ///< of them: chosen anew; the rest was out of view
     std::uint64_t triangles_hidden = 0;  ///< left out because nearer terrain hides them
 };
 
@@ -61,12 +63,13 @@ class LodMethod {
   public:
     virtual ~LodMethod() = default;
     [[nodiscard]] virtual std::string_view name() const = 0;
-    /// What blocks must be unfolded to. Nested: selections refer to the blocks' own index lists, and vertices move as
-    /// terrain/lod/nested_motion.hpp says, at the tolerance tau + slack.
+    /// What blocks must be unfolded to. Nested: selections refer to the blocks' own index lists, and vertices
+    /// move as terrain/lod/nested_motion.hpp says, at the tolerance tau + slack.
     [[nodiscard]] virtual MeshKind mesh_kind() const = 0;
     /// The index list that selections of grids refer to; constant over the method's life.
     [[nodiscard]] virtual std::span<const std::uint16_t> indices() const = 0;
-    /// The reference is good until the next call. The frame number grows by one a call.
+    /// The reference is good until the next call. The frame number grows by one a call; the tree is the same
+    /// one in every call.
     [[nodiscard]] virtual const Selection& select(const LodView& view, TileTree& tree,
                                                   std::uint64_t frame) = 0;
 };

@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 
 #include "terrain/geodesy/earth.hpp"
+#include "terrain/lod/planet_horizon.hpp"
+#include "terrain/lod/tile_edges.hpp"
 
 namespace eyepoint::terrain {
 
@@ -31,51 +33,6 @@ double sagitta_m(std::uint32_t depth, int level) {
 
 int resolution(const TileNode& node) {
     return static_cast<int>(node.tile.depth) + kBlockHalvings - node.mark.level;
-}
-
-/// The two children of a tile that touch an edge, first the one nearer the edge's start (south or west).
-std::array<std::size_t, 2> children_at(Edge edge) {
-    switch (edge) {
-        case Edge::West:
-            return {0, 2};
-        case Edge::East:
-            return {1, 3};
-        case Edge::South:
-            return {0, 1};
-        case Edge::North:
-            return {2, 3};
-    }
-    return {};
-}
-
-Edge opposite(Edge edge) {
-    switch (edge) {
-        case Edge::West:
-            return Edge::East;
-        case Edge::East:
-            return Edge::West;
-        case Edge::South:
-            return Edge::North;
-        case Edge::North:
-            return Edge::South;
-    }
-    return edge;
-}
-
-/// How far below the true surface a drawn mesh may lie between the eye and its horizon, metres: tau pixels at
-/// the horizon's distance, twice over for the strips beside thinned edges. Only what an Earth lower by this
-/// hides is hidden by drawn meshes: else the sky would show between the last one before the horizon and a
-/// mountain behind it.
-double mesh_below_surface_m(const LodView& view, double lowest_height_m) {
-    const double eye_radius_m = glm::length(view.eye), surface_radius_m = kPolarRadiusM + lowest_height_m;
-    double below_m = 0.0;
-    for (int i = 0; i < 3;
-         ++i) {  // the lower Earth's horizon is farther: three rounds settle it to the metre
-        const double radius_m = surface_radius_m - below_m;
-        const double horizon_m = std::sqrt(std::max(eye_radius_m * eye_radius_m - radius_m * radius_m, 0.0));
-        below_m = 2.0 * view.tau_px / view.kappa_px * horizon_m;
-    }
-    return std::min(below_m, 0.5 * surface_radius_m);
 }
 
 }  // namespace

@@ -8,10 +8,6 @@ namespace eyepoint::terrain {
 
 namespace {
 
-/// A block is kept this many frames after its last use even over budget: a view that flickers between two
-/// tiles must not load them over and over.
-constexpr std::uint64_t kKeepFrames = 60;
-
 bool has_loaded_child(const TileNode& node) {
     return node.children && std::any_of(node.children->begin(), node.children->end(),
                                         [](const TileNode& child) { return child.block != nullptr; });
@@ -33,7 +29,7 @@ tl::expected<std::unique_ptr<Pager>, std::string> Pager::create(std::shared_ptr<
                                                                 const PagerOptions& options) {
     std::unique_ptr<Pager> pager{new Pager(std::move(database), options)};
     for (TileNode& root : pager->tree_.roots()) {
-        Finished finished{root.tile, true, pager->load({root.tile, true, root.info.has_image, nullptr, 0.0})};
+        Finished finished{root.tile, true, pager->load({root.tile, true, root.info, nullptr, 0.0})};
         if (!finished.block) return tl::unexpected(finished.block.error());
         pager->place(std::move(finished), 0);
     }
@@ -44,7 +40,7 @@ tl::expected<std::unique_ptr<Pager>, std::string> Pager::create(std::shared_ptr<
 }
 
 Pager::Pager(std::shared_ptr<const Database> database, const PagerOptions& options)
-    : database_(std::move(database)), options_(options), tree_(database_) {}
+    : database_(std::move(database)), options_(options), tree_(database_, options.mesh) {}
 
 Pager::~Pager() {
     for (std::jthread& thread : threads_) thread.request_stop();
@@ -58,7 +54,7 @@ void Pager::request(std::span<const BlockRequest> wishes) {
         const TileNode& node = *wish.node;
         const bool known = node.unreadable || node.block || under_way_.contains(node.tile);
         if (known || node.parent == nullptr || !node.parent->block) continue;
-        queue_.push_back({node.tile, node.stored, node.info.has_image, node.parent->block, wish.priority});
+        queue_.push_back({node.tile, node.stored, node.info, node.parent->block, wish.priority});
     }
     std::sort(queue_.begin(), queue_.end(),
               [](const Job& a, const Job& b) { return a.priority < b.priority; });
@@ -85,16 +81,28 @@ void Pager::run(const std::stop_token& stop) {
 }
 
 tl::expected<std::shared_ptr<const Block>, std::string> Pager::load(const Job& job) const {
-    if (!job.stored) {
-        return unfold(subdivide(job.parent->data, quadrant(job.tile), database_->manifest().height_step_m),
-                      std::nullopt);
-    }
-    auto data = database_->read_block(job.tile);
+    if (!job.stored) return interpolate(job);
+    const auto data = database_->read_block(job.tile);
     if (!data) return tl::unexpected(data.error());
-    if (!job.has_image) return unfold(*data, std::nullopt);
+    if (!job.info.has_image) return unfold_stored(job, *data, std::nullopt);
     auto image = database_->read_image(job.tile);
     if (!image) return tl::unexpected(image.error());
-    return unfold(*data, std::move(*image));
+    return unfold_stored(job, *data, std::move(*image));
+}
+
+tl::expected<std::shared_ptr<const Block>, std::string> Pager::unfold_stored(
+    const Job& job, const BlockData& data, std::optional<ImageData> image) const {
+    if (options_.mesh == MeshKind::Grid) return unfold(data, std::move(image));
+    const auto mesh = database_->read_mesh(job.tile);
+    if (!mesh) return tl::unexpected(mesh.error());
+    return unfold(data, job.info, *mesh, job.parent.get(), std::move(image));
+}
+
+std::shared_ptr<const Block> Pager::interpolate(const Job& job) const {
+    const BlockData data =
+        subdivide(job.parent->data, quadrant(job.tile), database_->manifest().height_step_m);
+    if (options_.mesh == MeshKind::Grid) return unfold(data, std::nullopt);
+    return unfold(data, job.info, virtual_mesh(job.info.last_level), job.parent.get(), std::nullopt);
 }
 
 std::size_t Pager::publish(std::size_t most_blocks, std::uint64_t frame) {
@@ -115,6 +123,7 @@ std::size_t Pager::publish(std::size_t most_blocks, std::uint64_t frame) {
 void Pager::place(Finished finished, std::uint64_t frame) {
     TileNode* node = tree_.find(finished.tile);
     if (node == nullptr) return;
+    tree_.note_change();
     if (!finished.block) {
         node->unreadable = true;
         ++counters_.unreadable;
@@ -141,6 +150,7 @@ void Pager::evict(std::uint64_t frame) {
         --counters_.blocks;
         ++counters_.evicted;
         node->block.reset();
+        tree_.note_change();
     }
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <thread>
@@ -17,6 +18,10 @@
 #include "terrain/pager/tile_tree.hpp"
 
 namespace eyepoint::terrain {
+
+/// A block is kept this many frames after its last use even over budget: a view that flickers between two
+/// tiles must not load them over and over.
+inline constexpr std::uint64_t kKeepFrames = 60;
 
 struct PagerOptions {
     unsigned threads = 1;
@@ -70,7 +75,7 @@ class Pager {
     struct Job {
         TileId tile;
         bool stored = false;
-        bool has_image = false;
+        NodeInfo info;
         std::shared_ptr<const Block> parent;
         double priority = 0.0;
     };
@@ -83,6 +88,9 @@ class Pager {
     Pager(std::shared_ptr<const Database> database, const PagerOptions& options);
     void run(const std::stop_token& stop);
     [[nodiscard]] tl::expected<std::shared_ptr<const Block>, std::string> load(const Job& job) const;
+    [[nodiscard]] tl::expected<std::shared_ptr<const Block>, std::string> unfold_stored(
+        const Job& job, const BlockData& data, std::optional<ImageData> image) const;
+    [[nodiscard]] std::shared_ptr<const Block> interpolate(const Job& job) const;
     void place(Finished finished, std::uint64_t frame);
     void evict(std::uint64_t frame);
 

@@ -19,7 +19,8 @@ bool has_finer_picture(const Database& database, TileId tile) {
 
 }  // namespace
 
-TileTree::TileTree(std::shared_ptr<const Database> database) : database_(std::move(database)) {
+TileTree::TileTree(std::shared_ptr<const Database> database, MeshKind mesh)
+    : database_(std::move(database)), mesh_(mesh) {
     for (std::uint32_t x = 0; x < roots_.size(); ++x) {
         describe(roots_[x], {0, x, 0}, nullptr);
         lowest_height_m_ = std::min(lowest_height_m_, static_cast<double>(roots_[x].info.height_min_m));
@@ -42,10 +43,15 @@ void TileTree::describe(TileNode& node, TileId tile, TileNode* parent) const {
     node.bounds = tile_bounds(tile, node.info.height_min_m, node.info.height_max_m);
 }
 
+bool TileTree::ends_at(const TileNode& node) const {
+    if (node.tile.depth >= kMaxDepth) return true;
+    if (mesh_ == MeshKind::Nested) return !node.info.has_children && node.info.first_level == 0;
+    return node.tile.depth >= database_->manifest().max_depth + kMaxInterpolatedDepths;
+}
+
 std::span<TileNode> TileTree::children(TileNode& node) {
     if (!node.children) {
-        const auto deepest = database_->manifest().max_depth + kMaxInterpolatedDepths;
-        if (node.tile.depth >= std::min<std::uint32_t>(deepest, kMaxDepth)) return {};
+        if (ends_at(node)) return {};
         node.children = std::make_unique<std::array<TileNode, 4>>();
         for (int quadrant = 0; quadrant < 4; ++quadrant) {
             describe((*node.children)[static_cast<std::size_t>(quadrant)], child(node.tile, quadrant), &node);

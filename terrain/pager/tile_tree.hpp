@@ -21,6 +21,7 @@ struct LodMark {
     std::int8_t level = 0;
     bool split = false;
     bool visible = false;
+    std::uint32_t draw = 0;  ///< index in Selection::draws
 };
 
 struct TileNode {
@@ -42,10 +43,11 @@ struct TileNode {
 
 /// Owns the nodes; they stay where they are as long as the tree lives.
 /// Below the database's leaves the tree goes on with interpolated tiles, so that the curve of the Earth is
-/// followed wherever an eye goes, to kMaxInterpolatedDepths below. Thread use: one thread (the frame's).
+/// followed wherever an eye goes, to kMaxInterpolatedDepths below; nested meshes only as far as bare_level
+/// (terrain/lod/error_level.hpp) asks for. Thread use: one thread (the frame's).
 class TileTree {
   public:
-    explicit TileTree(std::shared_ptr<const Database> database);
+    explicit TileTree(std::shared_ptr<const Database> database, MeshKind mesh = MeshKind::Grid);
 
     static constexpr int kMaxInterpolatedDepths = 12;
 
@@ -57,10 +59,18 @@ class TileTree {
     /// Lowest ellipsoidal height of all terrain, metres.
     [[nodiscard]] double lowest_height_m() const { return lowest_height_m_; }
 
+    /// Grows whenever a node's block comes or goes or is found unreadable: who keeps what the nodes said
+    /// looks again when it has grown.
+    [[nodiscard]] std::uint64_t changes() const { return changes_; }
+    void note_change() { ++changes_; }
+
   private:
     void describe(TileNode& node, TileId tile, TileNode* parent) const;
+    [[nodiscard]] bool ends_at(const TileNode& node) const;
 
     std::shared_ptr<const Database> database_;
+    MeshKind mesh_;
+    std::uint64_t changes_ = 0;
     std::array<TileNode, 2> roots_;
     double lowest_height_m_ = 0.0;
 };

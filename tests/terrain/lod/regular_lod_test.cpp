@@ -36,7 +36,7 @@ class Flight {
   public:
     explicit Flight(const AnalyticTerrain& terrain)
         : database_(testing::make_database(terrain, scratch_.path() / "db")),
-          pager_(std::move(Pager::create(database_, {1, 1ULL << 30}).value())) {}
+          pager_(std::move(Pager::create(database_, {.threads = 1, .cache_bytes = 1ULL << 30}).value())) {}
 
     const Selection& settle(const LodView& view) {
         while (true) {

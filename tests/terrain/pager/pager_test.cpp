@@ -136,7 +136,7 @@ TEST_F(PagerTest, ADatabaseWithAnUnreadableRootIsRefusedInWords) {
 }
 
 TEST_F(PagerTest, TheMostWantedBlockIsLoadedFirst) {
-    const auto pager = open({1, kPlenty});
+    const auto pager = open({.threads = 1, .cache_bytes = kPlenty});
     auto wishes = wishes_below_roots(pager->tree(), kMixedPriorities);
     pager->request(wishes);
     ASSERT_TRUE(pager->wait_for_loads());
@@ -150,7 +150,7 @@ TEST_F(PagerTest, TheMostWantedBlockIsLoadedFirst) {
 }
 
 TEST_F(PagerTest, WaitingEndsWhenEverythingWishedForIsThere) {
-    const auto pager = open({2, kPlenty});
+    const auto pager = open({.threads = 2, .cache_bytes = kPlenty});
     EXPECT_FALSE(pager->wait_for_loads()) << "nothing was wished for";
     pager->request(wishes_below_roots(pager->tree(), kMixedPriorities));
     EXPECT_TRUE(pager->wait_for_loads());
@@ -163,7 +163,7 @@ TEST_F(PagerTest, WaitingEndsWhenEverythingWishedForIsThere) {
 }
 
 TEST_F(PagerTest, AWishForWhatIsLoadedOrHasNoParentLoadsNothing) {
-    const auto pager = open({1, kPlenty});
+    const auto pager = open({.threads = 1, .cache_bytes = kPlenty});
     TileTree& tree = pager->tree();
     TileNode& child = tree.children(tree.roots()[0])[0];
     TileNode& grandchild = tree.children(child)[0];
@@ -175,9 +175,9 @@ TEST_F(PagerTest, AWishForWhatIsLoadedOrHasNoParentLoadsNothing) {
 }
 
 TEST_F(PagerTest, OverTheBudgetTheLongestUnusedGoAndUsedOnesStay) {
-    const auto roomy = open({1, kPlenty});
+    const auto roomy = open({.threads = 1, .cache_bytes = kPlenty});
     const std::uint64_t block_bytes = roomy->counters().bytes / 2;
-    const auto pager = open({1, 6 * block_bytes + block_bytes / 2});
+    const auto pager = open({.threads = 1, .cache_bytes = 6 * block_bytes + block_bytes / 2});
     const auto wishes = wishes_below_roots(pager->tree(), kMixedPriorities);
     load(*pager, wishes, 1);
     EXPECT_EQ(pager->counters().blocks, 10U) << "fresh blocks are kept for a while";
@@ -193,7 +193,7 @@ TEST_F(PagerTest, OverTheBudgetTheLongestUnusedGoAndUsedOnesStay) {
 }
 
 TEST_F(PagerTest, BlocksInUseStayThoughTheyExceedTheBudget) {
-    const auto pager = open({1, 1});
+    const auto pager = open({.threads = 1, .cache_bytes = 1});
     const auto wishes = wishes_below_roots(pager->tree(), kMixedPriorities);
     load(*pager, wishes, 1);
     for (const BlockRequest& wish : wishes) wish.node->used_frame = kLongAfter;
@@ -203,7 +203,7 @@ TEST_F(PagerTest, BlocksInUseStayThoughTheyExceedTheBudget) {
 }
 
 TEST_F(PagerTest, ABlockStaysAsLongAsOneBelowItDoes) {
-    const auto pager = open({1, 1});
+    const auto pager = open({.threads = 1, .cache_bytes = 1});
     TileTree& tree = pager->tree();
     TileNode& child = tree.children(tree.roots()[0])[0];
     TileNode& grandchild = tree.children(child)[0];
@@ -219,7 +219,7 @@ TEST_F(PagerTest, ABlockStaysAsLongAsOneBelowItDoes) {
 }
 
 TEST_F(PagerTest, AnEvictedBlockComesBackTheSame) {
-    const auto pager = open({1, 1});
+    const auto pager = open({.threads = 1, .cache_bytes = 1});
     const auto wishes = wishes_below_roots(pager->tree(), kMixedPriorities);
     load(*pager, wishes, 1);
     const auto before = content_of(*pager);
@@ -235,7 +235,7 @@ TEST_F(PagerTest, AnUnreadableBlockIsReportedOnceAndNotAskedForAgain) {
     const TileId bad{1, 2, 1};
     damage(folder, bad);
     const auto database = std::make_shared<const Database>(Database::open(folder).value());
-    const auto pager = std::move(Pager::create(database, {1, kPlenty}).value());
+    const auto pager = std::move(Pager::create(database, {.threads = 1, .cache_bytes = kPlenty}).value());
     const auto wishes = wishes_below_roots(pager->tree(), kMixedPriorities);
     for (std::uint64_t frame = 1; frame <= 3; ++frame) load(*pager, wishes, frame);
     EXPECT_EQ(pager->counters().unreadable, 1U);
@@ -256,7 +256,7 @@ TEST_F(PagerTest, AnUnreadableBlockIsDrawnFromItsAncestorWithoutCracks) {
     const TileId bad = tile_at(46.5, 8.25, 3);
     damage(folder, bad);
     const auto database = std::make_shared<const Database>(Database::open(folder).value());
-    const auto pager = std::move(Pager::create(database, {1, kPlenty}).value());
+    const auto pager = std::move(Pager::create(database, {.threads = 1, .cache_bytes = kPlenty}).value());
     // From 3,000 km above the tile, looking down at 53 by 53 degrees.
     const Ecef eye = to_ecef({46.5, 8.25, EllipsoidalHeight{3.0e6}});
     const glm::dmat3 enu = east_north_up(46.5, 8.25);
@@ -290,7 +290,7 @@ TEST_F(PagerTest, AnUnreadableBlockIsDrawnFromItsAncestorWithoutCracks) {
 }
 
 TEST_F(PagerTest, OneThreadAndFourMakeTheSameTree) {
-    const auto one = open({1, kPlenty}), four = open({4, kPlenty});
+    const auto one = open({.threads = 1, .cache_bytes = kPlenty}), four = open({.threads = 4, .cache_bytes = kPlenty});
     constexpr std::uint32_t kBelowTheLeaves = 6;
     for (const auto& pager : {one.get(), four.get()}) load_down_to(*pager, kBelowTheLeaves);
     EXPECT_GT(one->counters().interpolated, 0U);
@@ -302,7 +302,7 @@ TEST_F(PagerTest, OneThreadAndFourMakeTheSameTree) {
 
 TEST_F(PagerTest, MayGoWhileLoadsAreUnderWay) {
     for (int round = 0; round < 50; ++round) {
-        const auto pager = open({4, kPlenty});
+        const auto pager = open({.threads = 4, .cache_bytes = kPlenty});
         pager->request(wishes_below_roots(pager->tree(), kMixedPriorities));
         if (round % 2 == 0) pager->publish(100, 1);
         if (round % 3 == 0) pager->request({});
@@ -310,7 +310,7 @@ TEST_F(PagerTest, MayGoWhileLoadsAreUnderWay) {
 }
 
 TEST_F(PagerTest, WishesReplacedEveryFrameLoadEachBlockOnce) {
-    const auto pager = open({4, kPlenty});
+    const auto pager = open({.threads = 4, .cache_bytes = kPlenty});
     const auto wishes = wishes_below_roots(pager->tree(), kMixedPriorities);
     for (std::uint64_t frame = 1; pager->counters().blocks < 10; ++frame) {
         pager->request(wishes);

@@ -1,0 +1,206 @@
+#include <algorithm>
+
+#include "terrain/block/block.hpp"
+#include "terrain/block/block_vertex.hpp"
+#include "terrain/database/mesh_places.hpp"
+
+namespace eyepoint::terrain {
+
+namespace {
+
+constexpr std::int64_t kCellUnits = kPlaceUnits / std::uint32_t{kMeshCells};
+constexpr std::size_t kCells = std::size_t{kMeshCells} * kMeshCells;
+constexpr int kGoneShift = 16;
+constexpr int kEdgeShift = 24;
+
+/// Order of NestedMesh::fine_posts.
+bool before(const NestedMesh::FinePost& post, Place place) {
+    const Place at = place_of(post);
+    return at.y != place.y ? at.y < place.y : at.x < place.x;
+}
+
+/// Finds the vertices of a block by their places.
+class VertexFinder {
+  public:
+    explicit VertexFinder(const Block& block) : block_(block) {
+        at_post_.fill(kNoVertex);
+        own_posts_ = block.vertices.size() - block.fine_posts.size();
+        constexpr std::uint32_t kUnits = kVertexPlaceUnits / std::uint32_t{kBlockCells};
+        for (std::size_t i = 0; i < own_posts_; ++i) {
+            const std::uint32_t place = block.vertices[i].place;
+            at_post_[(place >> 16) / kUnits * kBlockPosts + (place & 0xffffU) / kUnits] =
+                static_cast<std::uint16_t>(i);
+        }
+    }
+
+    [[nodiscard]] std::uint32_t at(Place place) const {
+        if (place.x % kPostUnits == 0 && place.y % kPostUnits == 0)
+            return at_post_[static_cast<std::size_t>(place.y / kPostUnits * kBlockPosts +
+                                                     place.x / kPostUnits)];
+        const auto& posts = block_.fine_posts;
+        const auto found = std::lower_bound(posts.begin(), posts.end(), place, before);
+        if (found == posts.end() || place_of(*found).x != place.x || place_of(*found).y != place.y)
+            return kNoVertex;
+        return static_cast<std::uint32_t>(own_posts_ + static_cast<std::size_t>(found - posts.begin()));
+    }
+
+  private:
+    const Block& block_;
+    std::array<std::uint16_t, kBlockVertices> at_post_{};
+    std::size_t own_posts_ = 0;
+};
+
+/// Where a place of a child lies in its parent.
+Place in_parent(Place place, TileId child) {
+    constexpr std::int32_t kHalf = kPlaceUnits / 2;
+    return {place.x / 2 + ((child.x & 1U) != 0 ? kHalf : 0), place.y / 2 + ((child.y & 1U) != 0 ? kHalf : 0)};
+}
+
+std::vector<BlockVertex> positioned(const BlockData& data, const NestedMesh& mesh) {
+    VertexMaker maker(data);
+    std::vector<BlockVertex> vertices;
+    vertices.reserve(mesh.vertices());
+    for (int post = 0; mesh.whole_grid && post < kBlockVertices; ++post)
+        vertices.push_back(maker.at_post(post / kBlockPosts, post % kBlockPosts));
+    for (const std::uint16_t post : mesh.posts)
+        vertices.push_back(maker.at_post(post / kBlockPosts, post % kBlockPosts));
+    for (const auto& post : mesh.fine_posts) vertices.push_back(maker.at_fine_post(post));
+    return vertices;
+}
+
+/// Gives every vertex its motion, and those that stay the parent's normal.
+void set_motion(Block& block, const NestedMesh& mesh, std::span<const Place> places, const Block* parent) {
+    std::optional<VertexFinder> finder;
+    if (parent != nullptr) finder.emplace(*parent);
+    for (std::size_t i = 0; i < block.vertices.size(); ++i) {
+        BlockVertex& vertex = block.vertices[i];
+        const bool stays = mesh.gone_level[i] == NestedMesh::kStays;
+        std::uint32_t next = mesh.target[i];
+        if (stays) next = finder ? finder->at(in_parent(places[i], block.data.tile)) : kNoVertex;
+        if (stays && next != kNoVertex) vertex.normal = parent->vertices[next].normal;
+        vertex.motion = next | std::uint32_t{mesh.gone_level[i]} << kGoneShift |
+                        std::uint32_t{sides_of(places[i])} << kEdgeShift;
+    }
+}
+
+using Triangle = std::array<std::uint16_t, 3>;
+
+std::vector<Triangle> first_triangles(const NestedMesh& mesh) {
+    std::vector<Triangle> triangles;
+    if (!mesh.whole_grid) {
+        triangles.reserve(mesh.triangles.size() / 3);
+        for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3)
+            triangles.push_back({mesh.triangles[i], mesh.triangles[i + 1], mesh.triangles[i + 2]});
+        return triangles;
+    }
+    triangles.reserve(std::size_t{2} * kBlockCells * kBlockCells);
+    for (int row = 0; row < kBlockCells; ++row) {
+        for (int column = 0; column < kBlockCells; ++column) {
+            const auto sw = static_cast<std::uint16_t>(row * kBlockPosts + column);
+            const auto se = static_cast<std::uint16_t>(sw + 1),
+                       nw = static_cast<std::uint16_t>(sw + kBlockPosts),
+                       ne = static_cast<std::uint16_t>(sw + kBlockPosts + 1);
+            triangles.push_back({sw, se, ne});
+            triangles.push_back({sw, ne, nw});
+        }
+    }
+    return triangles;
+}
+
+std::size_t cell_of(const Triangle& triangle, std::span<const Place> places) {
+    std::int64_t x = 0, y = 0;
+    for (const std::uint16_t corner : triangle) {
+        x += places[corner].x;
+        y += places[corner].y;
+    }
+    constexpr std::int64_t kLast = kMeshCells - 1;
+    return static_cast<std::size_t>(std::min(y / (3 * kCellUnits), kLast) * kMeshCells +
+                                    std::min(x / (3 * kCellUnits), kLast));
+}
+
+/// The first level's triangles in the order of their cells, and where each cell begins.
+struct SortedTriangles {
+    std::vector<Triangle> triangles;
+    std::array<std::uint32_t, kCells + 1> cell_first{};
+};
+
+SortedTriangles sorted_by_cell(const std::vector<Triangle>& triangles, std::span<const Place> places) {
+    SortedTriangles sorted;
+    std::vector<std::uint8_t> cells;
+    cells.reserve(triangles.size());
+    for (const Triangle& triangle : triangles) {
+        cells.push_back(static_cast<std::uint8_t>(cell_of(triangle, places)));
+        ++sorted.cell_first[cells.back() + std::size_t{1}];
+    }
+    for (std::size_t cell = 0; cell < kCells; ++cell) sorted.cell_first[cell + 1] += sorted.cell_first[cell];
+    auto next = sorted.cell_first;
+    sorted.triangles.resize(triangles.size());
+    for (std::size_t i = 0; i < triangles.size(); ++i) sorted.triangles[next[cells[i]]++] = triangles[i];
+    return sorted;
+}
+
+/// Appends to the index list the triangles of one level, made from those of the level before (corner(i) is
+/// their i-th corner), and says where its cells begin.
+template <typename Corner>
+NestedLevel append_level(std::vector<std::uint16_t>& indices,
+                         const std::array<std::uint32_t, kCells + 1>& from, const NestedMesh& mesh, int level,
+                         Corner corner) {
+    const auto standing = [&](std::uint16_t vertex) {
+        while (mesh.gone_level[vertex] <= level) vertex = mesh.target[vertex];
+        return vertex;
+    };
+    NestedLevel result;
+    for (std::size_t cell = 0; cell < kCells; ++cell) {
+        result.cell_first[cell] = static_cast<std::uint32_t>(indices.size());
+        for (std::uint32_t i = from[cell]; i < from[cell + 1]; i += 3) {
+            const std::uint16_t a = standing(corner(i)), b = standing(corner(i + 1)),
+                                c = standing(corner(i + 2));
+            if (a == b || b == c || a == c) continue;
+            indices.insert(indices.end(), {a, b, c});
+        }
+    }
+    result.cell_first[kCells] = static_cast<std::uint32_t>(indices.size());
+    return result;
+}
+
+/// Every level's list comes from the one before it: a triangle once gone stays away. A level at which no
+/// vertex goes has the list of the one before.
+void append_levels(Block& block, const NestedMesh& mesh, std::span<const Place> places) {
+    SortedTriangles sorted = sorted_by_cell(first_triangles(mesh), places);
+    for (std::uint32_t& first : sorted.cell_first) first *= 3;
+    std::array<bool, 256> goes_at{};
+    for (const std::uint8_t level : mesh.gone_level) goes_at[level] = true;
+    block.indices.reserve(sorted.triangles.size() * 3 * 2);
+    block.levels.reserve(static_cast<std::size_t>(block.last_level - block.first_level) + 1);
+    block.levels.push_back(append_level(block.indices, sorted.cell_first, mesh, block.first_level,
+                                        [&](std::uint32_t i) { return sorted.triangles[i / 3][i % 3]; }));
+    for (int level = block.first_level + 1; level <= block.last_level; ++level) {
+        const NestedLevel before = block.levels.back();
+        block.levels.push_back(goes_at[static_cast<std::size_t>(level)]
+                                   ? append_level(block.indices, before.cell_first, mesh, level,
+                                                  [&](std::uint32_t i) { return block.indices[i]; })
+                                   : before);
+    }
+    block.indices.shrink_to_fit();
+}
+
+}  // namespace
+
+std::shared_ptr<const Block> unfold(BlockData data, const NodeInfo& info, const NestedMesh& mesh,
+                                    const Block* parent, std::optional<ImageData> image) {
+    auto block = std::make_shared<Block>();
+    block->data = data;
+    block->first_level = info.first_level;
+    block->last_level = info.last_level;
+    block->vertices = positioned(block->data, mesh);
+    block->fine_posts = mesh.fine_posts;
+    const std::vector<Place> places = vertex_places(mesh);
+    set_motion(*block, mesh, places, parent);
+    append_levels(*block, mesh, places);
+    block->has_water =
+        std::any_of(data.water.begin(), data.water.end(), [](std::uint8_t flag) { return flag != 0; });
+    block->image = std::move(image);
+    return block;
+}
+
+}  // namespace eyepoint::terrain
