@@ -35,9 +35,9 @@ struct NodeInfo {
     std::array<float, kBlockLevels> delta_m{};
     bool has_children = false;  ///< all four or none
     bool has_image = false;
-    /// Levels (terrain/lod/error_level.hpp) that the tile's nested mesh has: its finest, bare_level(depth) where it has
-    /// no children, and its coarsest, which is its parent's finest (kLastLevel for a root). Finer ones are its
-    /// children's.
+    /// Levels (terrain/lod/error_level.hpp) that the tile's nested mesh has: its finest, bare_level(depth)
+    /// where it has no children, and its coarsest, which is its parent's finest (kLastLevel for a root).
+    /// Finer ones are its children's.
     std::uint8_t first_level = 0;
     std::uint8_t last_level = 0;
 };
@@ -59,18 +59,19 @@ struct BlockData {
     }
 };
 
-/// Places in a tile, from its south-west corner: so many units a side, enough for any post of any tile below it to be
-/// whole. A post every kPlaceUnits / kBlockCells.
+/// Places in a tile, from its south-west corner: so many units a side, enough for any post of any tile below
+/// it to be whole. A post every kPlaceUnits / kBlockCells.
 inline constexpr std::uint32_t kPlaceUnits = 1U << 30;
 
-/// A tile's nested mesh (docs/lod.md): its finest triangulation, and how each of its vertices goes when the mesh gets
-/// coarser. The triangulation of the first level is the union of the children's at their last level.
+/// A tile's nested mesh (docs/lod.md): its finest triangulation, and how each of its vertices goes when the
+/// mesh gets coarser. The triangulation of the first level is the union of the children's at their last
+/// level.
 ///
-/// Vertices are numbered: first the tile's own posts that are in the mesh, then posts of deeper tiles below it. One
-/// vertex goes at a level d: it is in the meshes of levels below d, and while the level asked for rises from d - 1 to d
-/// it slides, in a straight line, to its target, a vertex of this mesh that is still there at level d. The mesh of a
-/// level is the first one with every vertex that has gone replaced by its target, until none has gone, and the empty
-/// triangles left out.
+/// Vertices are numbered: first the tile's own posts that are in the mesh, then posts of deeper tiles below
+/// it. One vertex goes at a level d: it is in the meshes of levels below d, and while the level asked for
+/// rises from d - 1 to d it slides, in a straight line, to its target, a vertex of this mesh that is still
+/// there at level d. The mesh of a level is the first one with every vertex that has gone replaced by its
+/// target, until none has gone, and the empty triangles left out.
 struct NestedMesh {
     /// A vertex at a post of a deeper tile.
     struct FinePost {
@@ -81,17 +82,18 @@ struct NestedMesh {
     };
     static constexpr std::uint8_t kStays = 255;  ///< level of a vertex that is in the parent's mesh too
 
-    /// Every own post is a vertex, in the order of BlockData::water, and the triangles are the regular ones, every cell
-    /// split from its south-west to its north-east post: `posts`, `fine_posts` and `triangles` are empty. So in a tile
-    /// without children.
+    /// Every own post is a vertex, in the order of BlockData::water, and the triangles are the regular ones,
+    /// every cell split from its south-west to its north-east post: `posts`, `fine_posts` and `triangles` are
+    /// empty. So in a tile without children.
     bool whole_grid = false;
-    std::vector<std::uint16_t> posts;       ///< row * kBlockPosts + column, rising
-    std::vector<FinePost> fine_posts;       ///< rising in (y, x)
-    std::vector<std::uint16_t> triangles;   ///< of the first level: three vertices each, counterclockwise from above
-    /// By vertex: first_level <= level <= last_level, or kStays. At first_level: never there (on the edge of a whole
-    /// grid beside a coarser leaf).
+    std::vector<std::uint16_t> posts;  ///< row * kBlockPosts + column, rising
+    std::vector<FinePost> fine_posts;  ///< rising in (y, x)
+    std::vector<std::uint16_t>
+        triangles;  ///< of the first level: three vertices each, counterclockwise from above
+    /// By vertex: at most last_level, or kStays. At first_level or below it: in none of this tile's meshes,
+    /// only passed by what slides to it and on (on the edge beside a coarser leaf). The tile's corners stay.
     std::vector<std::uint8_t> gone_level;
-    std::vector<std::uint16_t> target;      ///< by vertex; 0 where it stays
+    std::vector<std::uint16_t> target;  ///< by vertex; 0 where it stays
 
     [[nodiscard]] std::size_t vertices() const { return gone_level.size(); }
     bool operator==(const NestedMesh&) const = default;

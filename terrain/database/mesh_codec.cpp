@@ -67,10 +67,21 @@ class TargetRanks {
     PlaceIndex index_;
 };
 
+/// Levels count from the mesh's first one, alternately up and (rare) down; 0: it stays.
+std::uint64_t number_of_level(std::uint8_t level, std::uint8_t first_level) {
+    if (level == NestedMesh::kStays) return 0;
+    return level >= first_level ? 2U * static_cast<unsigned>(level - first_level) + 1U
+                                : 2U * static_cast<unsigned>(first_level - level);
+}
+std::uint8_t level_of_number(std::uint64_t number, std::uint8_t first_level) {
+    if (number == 0) return NestedMesh::kStays;
+    const auto apart = static_cast<int>(number / 2);
+    return static_cast<std::uint8_t>((number & 1U) != 0 ? first_level + apart : first_level - apart);
+}
+
 void write_levels(RangeEncoder& bytes, const NestedMesh& mesh, std::uint8_t first_level) {
     NumberModel model;
-    for (const std::uint8_t level : mesh.gone_level)
-        bytes.number(model, level == NestedMesh::kStays ? 0U : level - first_level + 1U);
+    for (const std::uint8_t level : mesh.gone_level) bytes.number(model, number_of_level(level, first_level));
 }
 
 void write_targets(RangeEncoder& bytes, const NestedMesh& mesh, std::span<const Place> places) {
@@ -88,10 +99,9 @@ bool read_levels(RangeDecoder& bytes, NestedMesh& mesh, std::size_t vertices, st
     NumberModel model;
     mesh.gone_level.reserve(vertices);
     for (std::size_t vertex = 0; vertex < vertices; ++vertex) {
-        const std::uint64_t after = bytes.number(model);
-        if (after > kLastLevel + 1U) return false;
-        mesh.gone_level.push_back(after == 0 ? NestedMesh::kStays
-                                             : static_cast<std::uint8_t>(first_level + after - 1));
+        const std::uint64_t number = bytes.number(model);
+        if (number > 2U * kLastLevel + 1U) return false;
+        mesh.gone_level.push_back(level_of_number(number, first_level));
     }
     return true;
 }

@@ -20,7 +20,9 @@ struct Gate {
 };
 
 /// Third corners that are ranked: the nearest to where the corner of an equilateral triangle would be.
-constexpr std::size_t kMaxCandidates = 12;
+constexpr std::size_t kMaxCandidates = 10;
+/// Cells a side by which they are found.
+constexpr int kGateCells = kBlockCells / 2;
 /// Vertices that are looked at for them.
 constexpr std::size_t kMaxLookedAt = 40;
 
@@ -54,7 +56,10 @@ struct Candidate {
 class Front {
   public:
     explicit Front(std::span<const Place> places)
-        : places_(places), index_(places), first_out_(places.size(), kNone), open_(places.size(), 0) {}
+        : places_(places),
+          index_(places, kGateCells),
+          first_out_(places.size(), kNone),
+          open_(places.size(), 0) {}
 
     void add(const Corners& corners) {
         const auto [a, b, c] = corners;
@@ -80,24 +85,34 @@ class Front {
         return std::nullopt;
     }
 
-    /// Third corners beyond a gate, the most likely first. Valid until the next call.
-    std::span<const Candidate> candidates(Gate gate) {
+    /// Looks for third corners beyond a gate. False where there are none.
+    bool approach(Gate gate) {
         near_.clear();
-        const Place a = places_[gate.from], b = places_[gate.to];
+        passed_.clear();
+        gate_ = gate;
         std::size_t looked_at = 0;
-        index_.visit_from(apex(a, b), [&](std::size_t vertex) {
-            consider(gate, static_cast<Vertex>(vertex));
+        index_.visit_from(apex(places_[gate.from], places_[gate.to]), [&](std::size_t vertex) {
+            consider(static_cast<Vertex>(vertex));
             return near_.size() < kMaxCandidates && ++looked_at < kMaxLookedAt;
         });
-        std::ranges::sort(near_, [](const Candidate& x, const Candidate& y) { return x.before(y); });
-        ranked_.clear();
-        for (const Candidate& candidate : near_) {
-            const bool free = std::ranges::none_of(ranked_, [&](const Candidate& inner) {
-                return is_inside(places_[inner.vertex], a, b, places_[candidate.vertex]);
+        return !near_.empty();
+    }
+    /// The most likely third corner that has not been given since; none with one of those in its triangle.
+    std::optional<Vertex> next_corner() {
+        while (!near_.empty()) {
+            const auto best = std::ranges::min_element(
+                near_, [](const Candidate& x, const Candidate& y) { return x.before(y); });
+            const Vertex vertex = best->vertex;
+            *best = near_.back();
+            near_.pop_back();
+            const bool free = std::ranges::none_of(passed_, [&](Vertex inner) {
+                return is_inside(places_[inner], places_[gate_.from], places_[gate_.to], places_[vertex]);
             });
-            if (free) ranked_.push_back(candidate);
+            if (!free) continue;
+            passed_.push_back(vertex);
+            return vertex;
         }
-        return ranked_;
+        return std::nullopt;
     }
 
   private:
@@ -131,11 +146,11 @@ class Front {
         return cross(a, b, point) >= 0 && cross(b, c, point) >= 0 && cross(c, a, point) >= 0;
     }
 
-    void consider(Gate gate, Vertex vertex) {
+    void consider(Vertex vertex) {
         const Place corner = places_[vertex];
-        const std::int64_t area = cross(corner, places_[gate.from], places_[gate.to]);
-        if (area <= 0 || is_closed(vertex) || has(gate.to, vertex) || has(vertex, gate.from)) return;
-        near_.push_back({vertex, area, dot(corner, places_[gate.from], places_[gate.to])});
+        const std::int64_t area = cross(corner, places_[gate_.from], places_[gate_.to]);
+        if (area <= 0 || is_closed(vertex) || has(gate_.to, vertex) || has(vertex, gate_.from)) return;
+        near_.push_back({vertex, area, dot(corner, places_[gate_.from], places_[gate_.to])});
     }
 
     std::span<const Place> places_;
@@ -146,7 +161,8 @@ class Front {
     std::vector<std::uint32_t> first_out_;
     std::vector<std::int32_t> open_;  ///< by vertex: its edges with a triangle on one side only
     std::vector<Candidate> near_;
-    std::vector<Candidate> ranked_;
+    std::vector<Vertex> passed_;
+    Gate gate_;
 };
 
 /// The triangles still to be written, found by any of their edges.
@@ -162,20 +178,21 @@ class Unwritten {
         written_.resize(all_.size());
     }
 
-    /// 1 + the place of the third corner among the candidates, and the triangle is then written; 0 where none
-    /// is there.
-    std::size_t take(Gate gate, std::span<const Candidate> candidates, Corners& taken) {
+    /// The third corner of a triangle at the gate.
+    [[nodiscard]] std::optional<Vertex> third_corner(Gate gate) const {
         const auto [first, last] = by_edge_.equal_range(key(gate.from, gate.to));
-        for (auto at = first; at != last; ++at) {
-            if (written_[at->second]) continue;
-            const Vertex third = opposite(all_[at->second], gate);
-            const auto rank = std::ranges::find(candidates, third, &Candidate::vertex);
-            if (rank == candidates.end()) continue;
-            written_[at->second] = true;
-            taken = {gate.from, gate.to, third};
-            return static_cast<std::size_t>(rank - candidates.begin()) + 1;
-        }
-        return 0;
+        const auto found =
+            std::find_if(first, last, [&](const auto& entry) { return !written_[entry.second]; });
+        if (found == last) return std::nullopt;
+        return opposite(all_[found->second], gate);
+    }
+    void take(const Corners& corners) {
+        const auto [first, last] = by_edge_.equal_range(key(corners[0], corners[1]));
+        const auto found = std::find_if(first, last, [&](const auto& entry) {
+            return !written_[entry.second] &&
+                   opposite(all_[entry.second], {corners[0], corners[1]}) == corners[2];
+        });
+        written_[found->second] = true;
     }
 
     /// The first that is unwritten; the caller has counted that there is one.
@@ -199,6 +216,21 @@ class Unwritten {
     std::size_t next_ = 0;
 };
 
+/// 1 + the rank of a third corner at the gate that was approached; 0 where it has none.
+std::size_t rank_of(Vertex third, Front& front) {
+    std::size_t rank = 0;
+    for (auto corner = front.next_corner(); corner; corner = front.next_corner()) {
+        ++rank;
+        if (*corner == third) return rank;
+    }
+    return 0;
+}
+std::optional<Vertex> corner_at(std::uint64_t choice, Front& front) {
+    std::optional<Vertex> corner = front.next_corner();
+    for (std::uint64_t rank = 1; rank < choice && corner; ++rank) corner = front.next_corner();
+    return corner;
+}
+
 }  // namespace
 
 void encode_triangles(RangeEncoder& bytes, std::span<const Place> places,
@@ -214,11 +246,13 @@ void encode_triangles(RangeEncoder& bytes, std::span<const Place> places,
             corners = unwritten.take_first();
             for (const Vertex corner : corners) bytes.number(models.corner, corner);
         } else {
-            const auto candidates = front.candidates(*gate);
-            if (candidates.empty()) continue;
-            const std::size_t choice = unwritten.take(*gate, candidates, corners);
+            if (!front.approach(*gate)) continue;
+            const auto third = unwritten.third_corner(*gate);
+            const std::size_t choice = third ? rank_of(*third, front) : 0;
             bytes.number(models.choice, choice);
             if (choice == 0) continue;
+            corners = {gate->from, gate->to, *third};
+            unwritten.take(corners);
         }
         front.add(corners);
         ++written;
@@ -243,13 +277,12 @@ tl::expected<std::vector<std::uint16_t>, std::string> decode_triangles(RangeDeco
                 corner = static_cast<Vertex>(vertex);
             }
         } else {
-            const auto candidates = front.candidates(*gate);
-            if (candidates.empty()) continue;
+            if (!front.approach(*gate)) continue;
             const std::uint64_t choice = bytes.number(models.choice);
             if (choice == 0) continue;
-            if (choice > candidates.size())
-                return tl::unexpected(std::string{"a triangle has no third corner"});
-            corners = {gate->from, gate->to, candidates[choice - 1].vertex};
+            const auto third = corner_at(choice, front);
+            if (!third) return tl::unexpected(std::string{"a triangle has no third corner"});
+            corners = {gate->from, gate->to, *third};
         }
         front.add(corners);
         mesh.triangles.insert(mesh.triangles.end(), corners.begin(), corners.end());

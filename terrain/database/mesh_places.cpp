@@ -5,14 +5,6 @@
 
 namespace eyepoint::terrain {
 
-namespace {
-
-std::size_t cell_of(Place place) {
-    return static_cast<std::size_t>(place.y / kPostUnits * kBlockPosts + place.x / kPostUnits);
-}
-
-}  // namespace
-
 std::vector<Place> vertex_places(const NestedMesh& mesh) {
     std::vector<Place> places;
     places.reserve(mesh.vertices());
@@ -25,13 +17,18 @@ std::vector<Place> vertex_places(const NestedMesh& mesh) {
     return places;
 }
 
-PlaceIndex::PlaceIndex(std::span<const Place> places) : order_(places.size()) {
+PlaceIndex::PlaceIndex(std::span<const Place> places, int cells)
+    : cells_(cells), cell_units_(static_cast<std::int32_t>(kPlaceUnits) / cells), order_(places.size()) {
     for (const Place place : places) ++first_[cell_of(place) + 1];
     for (std::size_t cell = 1; cell < first_.size(); ++cell)
         first_[cell] = static_cast<std::uint16_t>(first_[cell] + first_[cell - 1]);
     auto next = first_;
     for (std::size_t i = 0; i < places.size(); ++i)
         order_[next[cell_of(places[i])]++] = static_cast<std::uint16_t>(i);
+}
+
+std::size_t PlaceIndex::cell_of(Place place) const {
+    return static_cast<std::size_t>(place.y / cell_units_ * kBlockPosts + place.x / cell_units_);
 }
 
 std::span<const PlaceIndex::CellOffset> PlaceIndex::cells_by_distance() {

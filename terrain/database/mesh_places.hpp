@@ -39,19 +39,20 @@ struct Place {
                                      (place.y == 0 ? 4 : 0) | (place.y == kFar ? 8 : 0));
 }
 
-/// Places by the cell of the own grid whose south-west post is theirs or next to them.
+/// Places by square cells.
 class PlaceIndex {
   public:
-    explicit PlaceIndex(std::span<const Place> places);
+    /// Cells a side: a power of two, at most kBlockCells. The tile's far sides lie in cells of their own.
+    explicit PlaceIndex(std::span<const Place> places, int cells = kBlockCells);
 
     /// Calls visit(index of a place) for all places, nearest cell first (equal distances: southern, then
     /// western cell first), in a cell in their order, until it returns false.
     template <typename Visit>
     void visit_from(Place centre, Visit visit) const {
-        const int column = centre.x / kPostUnits, row = centre.y / kPostUnits;
+        const int column = centre.x / cell_units_, row = centre.y / cell_units_;
         for (const CellOffset offset : cells_by_distance()) {
             const int x = column + offset.x, y = row + offset.y;
-            if (x < 0 || x > kBlockCells || y < 0 || y > kBlockCells) continue;
+            if (x < 0 || x > cells_ || y < 0 || y > cells_) continue;
             const auto cell = static_cast<std::size_t>(y * kBlockPosts + x);
             for (std::size_t at = first_[cell]; at < first_[cell + 1]; ++at) {
                 if (!visit(std::size_t{order_[at]})) return;
@@ -65,7 +66,10 @@ class PlaceIndex {
         std::int8_t y = 0;
     };
     static std::span<const CellOffset> cells_by_distance();
+    [[nodiscard]] std::size_t cell_of(Place place) const;
 
+    int cells_ = kBlockCells;
+    std::int32_t cell_units_ = kPostUnits;
     std::array<std::uint16_t, kBlockPosts * kBlockPosts + 1> first_{};  ///< of a cell, in order_
     std::vector<std::uint16_t> order_;
 };

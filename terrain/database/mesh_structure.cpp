@@ -70,7 +70,7 @@ Fault check_corners(const NestedMesh& mesh) {
     return {};
 }
 
-Fault check_targets(const NestedMesh& mesh, std::uint8_t first_level, std::uint8_t last_level) {
+Fault check_targets(const NestedMesh& mesh, std::uint8_t last_level) {
     for (std::size_t vertex = 0; vertex < mesh.vertices(); ++vertex) {
         const std::uint8_t level = mesh.gone_level[vertex];
         const std::uint16_t target = mesh.target[vertex];
@@ -78,9 +78,9 @@ Fault check_targets(const NestedMesh& mesh, std::uint8_t first_level, std::uint8
             if (target == 0) continue;
             return tl::unexpected(fmt::format("vertex {} stays and has target {}", vertex, target));
         }
-        if (level < first_level || level > last_level) {
-            return tl::unexpected(fmt::format("vertex {} goes at level {}, not in {}..{}", vertex, level,
-                                              first_level, last_level));
+        if (level > last_level) {
+            return tl::unexpected(
+                fmt::format("vertex {} goes at level {}, after its last, {}", vertex, level, last_level));
         }
         if (target >= mesh.vertices() || mesh.gone_level[target] <= level) {
             return tl::unexpected(
@@ -110,7 +110,7 @@ tl::expected<void, std::string> check_structure(const NestedMesh& mesh, std::uin
     return check_sizes(mesh)
         .and_then([&] { return check_places(mesh); })
         .and_then([&] { return check_corners(mesh); })
-        .and_then([&] { return check_targets(mesh, first_level, last_level); })
+        .and_then([&] { return check_targets(mesh, last_level); })
         .and_then([&] { return check_triangles(mesh); });
 }
 

@@ -23,6 +23,8 @@ struct Account {
     std::uint64_t bytes = 0;
     std::uint64_t files = 0;
     double bits_per_post = 0.0;
+    std::uint64_t mesh_bytes = 0;
+    double mesh_bits_per_post = 0.0;
     float height_min_m = 0.0F;
     float height_max_m = 0.0F;
 };
@@ -36,9 +38,11 @@ Account account_of(const Database& database) {
         ++account.files;
         account.bytes += entry.file_size();
     }
-    constexpr double kPosts = terrain::kBlockPosts * terrain::kBlockPosts;
-    account.bits_per_post =
-        8.0 * static_cast<double>(account.bytes) / (kPosts * static_cast<double>(tiles.size()));
+    const double posts =
+        double{terrain::kBlockPosts} * terrain::kBlockPosts * static_cast<double>(tiles.size());
+    account.bits_per_post = 8.0 * static_cast<double>(account.bytes) / posts;
+    account.mesh_bytes = database.stored_bytes().meshes;
+    account.mesh_bits_per_post = 8.0 * static_cast<double>(account.mesh_bytes) / posts;
     const auto* west = database.find({0, 0, 0});
     const auto* east = database.find({0, 1, 0});
     account.height_min_m = std::min(west->height_min_m, east->height_min_m);
@@ -62,6 +66,8 @@ void print_text(const Database& database, const Account& account) {
         fmt::print("    depth {:2}    {}\n", depth, tiles);
     fmt::print("  on disk       {:.1f} MB in {} files, {:.2f} bits a post, all included\n",
                static_cast<double>(account.bytes) / 1e6, account.files, account.bits_per_post);
+    fmt::print("  meshes        {:.1f} MB, {:.2f} bits a post\n",
+               static_cast<double>(account.mesh_bytes) / 1e6, account.mesh_bits_per_post);
     fmt::print("  voids filled  {}\n  sources\n", manifest.voids_filled);
     for (const auto& source : manifest.sources) {
         fmt::print("    {}: {}{}{}, spacing {:.8g} degrees, {} voids\n", source.file, source.kind,
@@ -99,6 +105,8 @@ void print_json(const Database& database, const Account& account) {
         {"bytes", account.bytes},
         {"files", account.files},
         {"bits_per_post", account.bits_per_post},
+        {"mesh_bytes", account.mesh_bytes},
+        {"mesh_bits_per_post", account.mesh_bits_per_post},
         {"voids_filled", manifest.voids_filled},
         {"sources", sources}};
     fmt::print("{}\n", json.dump(4, ' ', false, ordered_json::error_handler_t::replace));

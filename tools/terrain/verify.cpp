@@ -4,6 +4,7 @@
 #include <atomic>
 #include <mutex>
 #include <random>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -11,7 +12,10 @@
 #include <tbb/parallel_for.h>
 
 #include "terrain/database/interpolate.hpp"
+#include "terrain/database/mesh_places.hpp"
+#include "terrain/database/mesh_structure.hpp"
 #include "terrain/geodesy/earth.hpp"
+#include "terrain/lod/error_level.hpp"
 
 namespace eyepoint::tools {
 
@@ -42,6 +46,33 @@ std::array<float, kBlockPosts> edge_heights(const BlockData& block, Edge edge) {
         }
     }
     return heights;
+}
+
+/// The vertices of a tile that its parent has too, in the parent's units: what stays of the tile's mesh.
+std::vector<std::pair<std::int64_t, std::int64_t>> staying_in_parent(const NestedMesh& mesh, TileId tile) {
+    const std::int64_t side{kPlaceUnits};
+    const std::int64_t west = quadrant(tile) % 2 * side, south = quadrant(tile) / 2 * side;
+    const auto places = vertex_places(mesh);
+    std::vector<std::pair<std::int64_t, std::int64_t>> result;
+    for (std::size_t vertex = 0; vertex < places.size(); ++vertex) {
+        if (mesh.gone_level[vertex] == NestedMesh::kStays)
+            result.emplace_back((west + places[vertex].x) / 2, (south + places[vertex].y) / 2);
+    }
+    std::ranges::sort(result);
+    return result;
+}
+
+/// The vertices of a parent's mesh that lie in a child or on its edges.
+std::vector<std::pair<std::int64_t, std::int64_t>> vertices_in_child(const NestedMesh& mesh, TileId tile) {
+    const std::int64_t half = kPlaceUnits / 2;
+    const std::int64_t west = quadrant(tile) % 2 * half, south = quadrant(tile) / 2 * half;
+    std::vector<std::pair<std::int64_t, std::int64_t>> result;
+    for (const Place place : vertex_places(mesh)) {
+        if (place.x >= west && place.x <= west + half && place.y >= south && place.y <= south + half)
+            result.emplace_back(place.x, place.y);
+    }
+    std::ranges::sort(result);
+    return result;
 }
 
 class Verification {
@@ -76,10 +107,38 @@ class Verification {
         if (info.has_image) {
             if (const auto image = database_.read_image(tile); !image) report(image.error());
         }
+        check_levels(tile, info);
+        check_mesh(tile);
         check_range(*block, info);
         check_poles(*block);
         for (const Edge edge : kEdges) check_edge(*block, edge);
         if (tile.depth > 0) check_parent(*block);
+    }
+
+    void check_levels(TileId tile, const NodeInfo& info) {
+        if (!info.has_children && info.first_level != bare_level(tile.depth)) {
+            report(fmt::format("{}: it has no children and its first level is {}, not {}", name_of(tile),
+                               info.first_level, bare_level(tile.depth)));
+        }
+        const std::uint8_t last = tile.depth == 0 ? kLastLevel : database_.find(parent(tile))->first_level;
+        if (info.last_level != last) {
+            report(fmt::format("{}: its last level is {}, its parent's first is {}", name_of(tile),
+                               info.last_level, last));
+        }
+    }
+
+    void check_mesh(TileId tile) {
+        const auto mesh = database_.read_mesh(tile);
+        if (!mesh) return report(mesh.error());
+        if (const auto covered = check_cover(*mesh); !covered)
+            report(fmt::format("mesh of {}: {}", name_of(tile), covered.error()));
+        if (tile.depth == 0) return;
+        const auto above = database_.read_mesh(parent(tile));
+        if (!above) return;  // reported when its own turn comes
+        if (staying_in_parent(*mesh, tile) != vertices_in_child(*above, tile)) {
+            report(fmt::format("mesh of {}: what stays of it is not what its parent's mesh has there",
+                               name_of(tile)));
+        }
     }
 
     void check_range(const BlockData& block, const NodeInfo& info) {

@@ -22,7 +22,9 @@ struct VerifyRequest {
 /// Faults, a sentence each, in no particular order; empty when the database is sound. Checked: every block
 /// and image decodes and its checksum is right; coarse posts are fine posts; posts on an edge that two tiles
 /// share are equal, and beside a coarser tile lie on its edge; a pole has one height; height ranges hold the
-/// heights; delta_m bounds the distance of the surface (computed here anew, not by the compiler's code).
+/// heights; every tile has a nested mesh of sound structure that covers it once, with the levels from its
+/// children's last (or the bare one) to its parent's first, and what stays of it are its parent's vertices;
+/// delta_m bounds the distance of the surface (computed here anew, not by the compiler's code).
 [[nodiscard]] std::vector<std::string> verify(const terrain::Database& database,
                                               const VerifyRequest& request);
 

@@ -16,6 +16,9 @@ std::string first_fault(const std::filesystem::path& folder) {
     if (!database) return database.error();
     for (const TileId tile : database->tiles()) {
         if (const auto block = database->read_block(tile); !block) return block.error();
+        if (tile.x == 0) {
+            if (const auto mesh = database->read_mesh(tile); !mesh) return mesh.error();
+        }
         if (!database->find(tile)->has_image) continue;
         if (const auto image = database->read_image(tile); !image) return image.error();
     }
@@ -58,7 +61,7 @@ TEST_F(Corruption, EveryFlippedBitOfTheHeaderAndTheIndexIsRefused) {
     }
 }
 
-TEST_F(Corruption, FlippedBitsOfBlocksAndImagesAreRefused) {
+TEST_F(Corruption, FlippedBitsOfBlocksMeshesAndImagesAreRefused) {
     std::mt19937 random{11};
     for (int trial = 0; trial < 500; ++trial) {
         std::string bytes = whole_;
@@ -74,6 +77,15 @@ TEST_F(Corruption, AnotherFormatVersionNamesBothVersions) {
     replace_bytes(shard_, bytes);
     EXPECT_NE(first_fault(folder_).find("version 9, this program reads version 2"), std::string::npos)
         << first_fault(folder_);
+}
+
+TEST_F(Corruption, ADatabaseOfVersion1IsToBeBuiltAgain) {
+    std::string bytes = whole_;
+    bytes[8] = 1;
+    replace_bytes(shard_, bytes);
+    EXPECT_EQ(first_fault(folder_), shard_.string() +
+                                        ": its format is version 1, this program reads version 2; "
+                                        "rebuild the database with eyepoint-terrain");
 }
 
 TEST_F(Corruption, AMissingShardIsRefused) {

@@ -50,6 +50,27 @@ TEST_F(TwoRoots, NodesAndBlocksComeBack) {
     EXPECT_FALSE(database->read_block({1, 0, 0}).has_value());
 }
 
+TEST_F(TwoRoots, LevelsAndMeshComeBack) {
+    const auto database = Database::open(folder_);
+    ASSERT_TRUE(database.has_value());
+    const NodeInfo* node = database->find({0, 0, 0});
+    ASSERT_NE(node, nullptr);
+    EXPECT_EQ(node->first_level, 40);
+    EXPECT_EQ(node->last_level, 63);
+    const auto mesh = database->read_mesh({0, 0, 0});
+    ASSERT_TRUE(mesh.has_value()) << mesh.error();
+    EXPECT_EQ(*mesh, virtual_mesh(63));
+    EXPECT_GT(database->stored_bytes().meshes, 0U);
+}
+
+TEST_F(TwoRoots, SaysWhereATileHasNoMesh) {
+    const auto database = Database::open(folder_);
+    ASSERT_TRUE(database.has_value());
+    const auto none = database->read_mesh({0, 1, 0});
+    ASSERT_FALSE(none.has_value());
+    EXPECT_NE(none.error().find("no mesh of tile 0/1-0; rebuild"), std::string::npos) << none.error();
+}
+
 // JPEG of quality 90 keeps a smooth slope of grey within a few steps of 255.
 TEST_F(TwoRoots, ImageComesBackNearlyAndTheRightWayUp) {
     const auto database = Database::open(folder_);

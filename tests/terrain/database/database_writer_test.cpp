@@ -30,6 +30,20 @@ TEST(DatabaseWriter, LeavesNothingWithoutCommit) {
     EXPECT_EQ(entries_in(scratch.path()), 0U);
 }
 
+TEST(DatabaseWriter, RefusesAMeshThatIsNotSoundAndNamesTheTile) {
+    const ScratchFolder scratch;
+    auto writer = DatabaseWriter::create(scratch.path() / "db", 1.0 / 16.0);
+    ASSERT_TRUE(writer.has_value()) << writer.error();
+    const BlockData block = rough_block({0, 1, 0});
+    NodeInfo info = wide_node();
+    info.last_level = 63;
+    NestedMesh mesh = virtual_mesh(63);
+    mesh.gone_level.front() = 5;
+    const auto put = writer->put({info, &block, &mesh, std::nullopt});
+    ASSERT_FALSE(put.has_value());
+    EXPECT_NE(put.error().find("mesh of tile 0/1-0: corner post 0 goes"), std::string::npos) << put.error();
+}
+
 TEST(DatabaseWriter, LeavesOnlyTheDatabaseAfterCommit) {
     const ScratchFolder scratch;
     write_two_roots(scratch.path() / "db");

@@ -13,6 +13,7 @@
 
 #include "terrain/database/database.hpp"
 #include "terrain/database/database_writer.hpp"
+#include "terrain/database/virtual_tile.hpp"
 
 namespace eyepoint::terrain {
 
@@ -78,14 +79,18 @@ inline Manifest small_manifest() {
     return manifest;
 }
 
-/// Both root tiles, the western one with an image.
+/// Both root tiles, the western one with an image and a mesh of levels 40 to 63.
 inline void write_two_roots(const std::filesystem::path& folder) {
     auto writer = DatabaseWriter::create(folder, 1.0 / 16.0);
     ASSERT_TRUE(writer.has_value()) << writer.error();
     const BlockData west = rough_block({0, 0, 0}), east = rough_block({0, 1, 0});
     const auto rgb = grey_slope();
     ASSERT_TRUE(writer->put({wide_node(), &east, nullptr, std::nullopt}).has_value());
-    ASSERT_TRUE(writer->put({wide_node(), &west, nullptr, rgb}).has_value());
+    NodeInfo info = wide_node();
+    info.first_level = 40;
+    info.last_level = 63;
+    const NestedMesh mesh = virtual_mesh(63);
+    ASSERT_TRUE(writer->put({info, &west, &mesh, rgb}).has_value());
     const auto committed = writer->commit(small_manifest());
     ASSERT_TRUE(committed.has_value()) << committed.error();
 }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "terrain/database/interpolate.hpp"
+#include "terrain/lod/error_level.hpp"
 #include "tests/terrain/database/small_database.hpp"
 
 namespace eyepoint::terrain {
@@ -77,6 +78,32 @@ TEST(VirtualTile, NodeTakesTheParentsLevels) {
     EXPECT_EQ(node.delta_m, (std::array<float, kBlockLevels>{0.25F, 1.0F, 2.0F, 3.0F, 4.0F, 5.0F}));
     EXPECT_EQ(node.height_max_m, parent.height_max_m);
     EXPECT_FALSE(node.has_children);
+}
+
+// Depth 5 has cells of 180 / 1024 degrees, where the Earth's roundness is under 28 m: level 30
+// (error_level.hpp).
+TEST(VirtualTile, NodeHasTheLevelsBelowItsParents) {
+    NodeInfo parent = wide_node();
+    parent.first_level = bare_level(4);
+    parent.last_level = 50;
+    const NodeInfo node = subdivide(parent, TileId{5, 0, 0});
+    EXPECT_EQ(node.last_level, parent.first_level);
+    EXPECT_EQ(node.first_level, 30);
+    EXPECT_EQ(parent.first_level, 34);
+}
+
+TEST(VirtualTile, MeshSlidesTheOddPostsToTheParents) {
+    const NestedMesh mesh = virtual_mesh(12);
+    EXPECT_TRUE(mesh.whole_grid);
+    ASSERT_EQ(mesh.vertices(), 33U * 33U);
+    const auto target = [&](std::size_t row, std::size_t column) { return mesh.target[row * 33 + column]; };
+    EXPECT_EQ(target(5, 7), 4 * 33 + 6);
+    EXPECT_EQ(target(5, 8), 4 * 33 + 8);
+    EXPECT_EQ(target(4, 7), 4 * 33 + 6);
+    for (std::size_t post = 0; post < 33U * 33U; ++post) {
+        const bool even = post / 33 % 2 == 0 && post % 33 % 2 == 0;
+        EXPECT_EQ(mesh.gone_level[post], even ? NestedMesh::kStays : 12);
+    }
 }
 
 TEST(VirtualTile, UndulationIsBilinear) {
