@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -26,144 +27,169 @@ namespace {
 
 constexpr int kSide = CellBounds::kSide;
 constexpr int kNodes = CellBounds::kNodes;
+constexpr int kSteps = CellBounds::kSteps;
+constexpr std::size_t kLineEdges = std::size_t{kNodes} * kSide;
 static_assert(kSide == kMeshCells);
 constexpr int kPostsACell = kBlockCells / kSide;
 constexpr std::uint32_t kLeastDepth = 4;
-/// Levels above the block's last that the bounds allow for: a block is drawn farther out than its last level
-/// asks for, as far as its parent's nearest point is too near for the parent.
-constexpr int kLevelsBeyond = 2;
 /// The outer lines along parallels run so far inside the tile, cells: a straight line between two nodes of a
 /// parallel leaves the tile by less.
 constexpr double kInset = 1.0 / 64.0;
 /// Greatest angle between the vertical of the ellipsoid and the direction from the Earth's centre, radians.
 constexpr double kDeflection = 0.0034;
-
 /// Depth of a line where nothing is drawn, metres.
 constexpr float kBottomless = 1e6F;
+constexpr float kLowest = std::numeric_limits<float>::lowest();
 
+/// std::min and std::max take references, which costs here.
 float least(float a, float b) { return a < b ? a : b; }
 float most(float a, float b) { return a > b ? a : b; }
 
-/// A place a vertex may be drawn at: local metres, and cells from the tile's south-west corner.
-struct Place {
-    glm::vec3 local{0.0F};
-    glm::vec2 cell{0.0F};
-};
+std::uint32_t next(const BlockVertex& vertex) { return vertex.motion & 0xffffU; }
+int gone_level(const BlockVertex& vertex) { return static_cast<int>(vertex.motion >> 16 & 0xffU); }
 
+/// A box of places, in cells from the tile's south-west corner.
 struct Box {
     glm::vec2 low{std::numeric_limits<float>::max()};
-    glm::vec2 high{std::numeric_limits<float>::lowest()};
+    glm::vec2 high{kLowest};
+
+    void add(const glm::vec2& place) {
+        low = {least(low.x, place.x), least(low.y, place.y)};
+        high = {most(high.x, place.x), most(high.y, place.y)};
+    }
+    void add(const Box& box) {
+        add(box.low);
+        add(box.high);
+    }
 };
 
-class Frame {
+/// A place that a vertex may be drawn at, local metres, and the first step that allows for it.
+struct Stop {
+    glm::vec3 local{0.0F};
+    std::uint32_t step = 0;
+};
+
+/// The vertices of the block, and those of the parent that are wanted, as seen from the block.
+class Places {
   public:
-    explicit Frame(const Ecef& centre) : centre_(centre), to_local_(glm::transpose(local_axes(centre))) {}
+    Places(const Block& block, const Block* parent, const Ecef& centre, int last_limit)
+        : block_(block),
+          parent_(parent),
+          centre_(centre),
+          to_local_(glm::transpose(local_axes(centre))),
+          first_limit_(last_limit - (kSteps - 1)),
+          last_limit_(last_limit),
+          locals_(block.vertices.size() + (parent != nullptr ? parent->vertices.size() : 0)),
+          known_(locals_.size(), false) {}
 
     [[nodiscard]] glm::vec3 local(const Ecef& point) const { return {to_local_ * (point - centre_)}; }
 
-    /// `units`: cells of the tile whose vertex it is per cell of the block; `origin`: that tile's corner, in
-    /// cells.
-    [[nodiscard]] Place place(const BlockVertex& vertex, float units, glm::vec2 origin) const {
-        const Ecef point{double{vertex.high[0]} + double{vertex.low[0]},
-                         double{vertex.high[1]} + double{vertex.low[1]},
-                         double{vertex.high[2]} + double{vertex.low[2]}};
-        const float scale = units * static_cast<float>(kSide) / static_cast<float>(kVertexPlaceUnits);
-        const glm::vec2 place{static_cast<float>(vertex.place & 0xffffU),
-                              static_cast<float>(vertex.place >> 16)};
-        return {local(point), origin + place * scale};
+    /// A vertex's number from here on: the parent's come after the block's own.
+    [[nodiscard]] std::uint32_t of_parent(std::uint32_t vertex) const {
+        return static_cast<std::uint32_t>(block_.vertices.size()) + vertex;
     }
 
-  private:
-    Ecef centre_;
-    glm::dmat3 to_local_;
-};
-
-/// The places a vertex passes on its way, from its own on: vertices in runs of one list.
-class Ways {
-  public:
-    Ways(const Block& block, const Block* parent, const Frame& frame, int level_limit)
-        : block_(block), parent_(parent), level_limit_(level_limit) {
-        places_.reserve(block.vertices.size());
-        for (const BlockVertex& vertex : block.vertices)
-            places_.push_back(frame.place(vertex, 1.0F, {0.0F, 0.0F}));
-        first_.reserve(block.vertices.size() + 1);
-        run_.reserve(block.vertices.size() * 3);
-        for (std::uint32_t vertex = 0; vertex < block.vertices.size(); ++vertex) {
-            first_.push_back(static_cast<std::uint32_t>(run_.size()));
-            append_way(vertex, frame);
+    /// Calls for every stop on a vertex's way, with its number and step.
+    template <typename Visit>
+    void along(std::uint32_t number, Visit visit) const {
+        std::uint32_t step = 0;
+        visit(number, step);
+        const auto own = static_cast<std::uint32_t>(block_.vertices.size());
+        while (true) {
+            const BlockVertex& vertex = at(number);
+            const int gone = gone_level(vertex);
+            if (gone == NestedMesh::kStays) {
+                if (number >= own || parent_ == nullptr || next(vertex) == kNoVertex) return;
+                number = own + next(vertex);
+                continue;
+            }
+            // It sets off once the level asked for is above gone - 1.
+            if (gone - 1 >= last_limit_) return;
+            step = std::max(step, static_cast<std::uint32_t>(std::max(gone - first_limit_, 0)));
+            number = (number >= own ? own : 0) + next(vertex);
+            visit(number, step);
         }
-        first_.push_back(static_cast<std::uint32_t>(run_.size()));
     }
 
-    [[nodiscard]] std::span<const Place> of(std::uint32_t vertex) const {
-        return std::span(run_).subspan(first_[vertex], first_[vertex + 1] - first_[vertex]);
-    }
-    [[nodiscard]] std::span<const Place> all() const { return run_; }
-
-    /// Appends the places that a vertex of the parent passes.
-    void append_way_in_parent(std::uint32_t vertex, const Frame& frame, std::vector<Place>& run) const {
+    [[nodiscard]] glm::vec2 cell(std::uint32_t number) const {
+        const std::uint32_t place = at(number).place;
+        constexpr float kCells = static_cast<float>(kSide) / static_cast<float>(kVertexPlaceUnits);
+        const glm::vec2 cells =
+            glm::vec2{static_cast<float>(place & 0xffffU), static_cast<float>(place >> 16)} * kCells;
+        if (number < block_.vertices.size()) return cells;
         const TileId tile = block_.data.tile;
-        const glm::vec2 origin{static_cast<float>(tile.x & 1U) * -kSide,
-                               static_cast<float>(tile.y & 1U) * -kSide};
-        const BlockVertex* at = &parent_->vertices[vertex];
-        run.push_back(frame.place(*at, 2.0F, origin));
-        while (gone_level(*at) != NestedMesh::kStays && gone_level(*at) - 1 < level_limit_) {
-            at = &parent_->vertices[next(*at)];
-            run.push_back(frame.place(*at, 2.0F, origin));
+        return cells * 2.0F -
+               glm::vec2{static_cast<float>(tile.x & 1U), static_cast<float>(tile.y & 1U)} * float{kSide};
+    }
+
+    [[nodiscard]] glm::vec3 local(std::uint32_t number) {
+        if (!known_[number]) {
+            const BlockVertex& vertex = at(number);
+            locals_[number] = local(Ecef{double{vertex.high[0]} + double{vertex.low[0]},
+                                         double{vertex.high[1]} + double{vertex.low[1]},
+                                         double{vertex.high[2]} + double{vertex.low[2]}});
+            known_[number] = true;
         }
+        return locals_[number];
     }
 
   private:
-    static std::uint32_t next(const BlockVertex& vertex) { return vertex.motion & 0xffffU; }
-    static int gone_level(const BlockVertex& vertex) { return static_cast<int>(vertex.motion >> 16 & 0xffU); }
-
-    void append_way(std::uint32_t vertex, const Frame& frame) {
-        run_.push_back(places_[vertex]);
-        const BlockVertex* at = &block_.vertices[vertex];
-        while (gone_level(*at) != NestedMesh::kStays) {
-            if (gone_level(*at) - 1 >= level_limit_) return;
-            run_.push_back(places_[next(*at)]);
-            at = &block_.vertices[next(*at)];
-        }
-        if (parent_ != nullptr && next(*at) != kNoVertex) append_way_in_parent(next(*at), frame, run_);
+    [[nodiscard]] const BlockVertex& at(std::uint32_t number) const {
+        return number < block_.vertices.size() ? block_.vertices[number]
+                                               : parent_->vertices[number - block_.vertices.size()];
     }
 
     const Block& block_;
     const Block* parent_;
-    int level_limit_;
-    std::vector<Place> places_;
-    std::vector<Place> run_;
-    std::vector<std::uint32_t> first_;
+    Ecef centre_;
+    glm::dmat3 to_local_;
+    int first_limit_, last_limit_;
+    std::vector<glm::vec3> locals_;
+    std::vector<bool> known_;
 };
+
+/// By step; rising.
+using Steps = std::array<float, static_cast<std::size_t>(kSteps)>;
+
+constexpr Steps nothing() {
+    Steps steps{};
+    steps.fill(kLowest);
+    return steps;
+}
 
 /// A plane over one edge of the grid of nodes, and how far below it the mesh may come.
 struct EdgeLow {
     glm::vec2 origin{0.0F};
     glm::vec2 slope{0.0F};
     float height = 0.0F;
-    float drop = std::numeric_limits<float>::lowest();  ///< lowest(): nothing is drawn over the edge
+    Steps drop = nothing();
 
-    [[nodiscard]] float below(const glm::vec3& point) const {
-        return height + slope.x * (point.x - origin.x) + slope.y * (point.y - origin.y) - point.z;
+    void lower(const Stop& stop) {
+        const float below =
+            height + slope.x * (stop.local.x - origin.x) + slope.y * (stop.local.y - origin.y) - stop.local.z;
+        drop[stop.step] = most(drop[stop.step], below);
     }
 };
 
+/// A step allows for all that the one before does.
+void accumulate(Steps& steps) {
+    for (std::size_t step = 1; step < steps.size(); ++step) steps[step] = most(steps[step], steps[step - 1]);
+}
+
 class BoundsMaker {
   public:
-    BoundsMaker(const Block& block, const Block* parent, int level_limit)
-        : block_(block),
-          parent_(parent),
-          frame_(middle(block.data)),
-          ways_(block, parent, frame_, level_limit) {
+    BoundsMaker(const Block& block, const Block* parent, int last_limit)
+        : block_(block), parent_(parent), places_(block, parent, middle(block.data), last_limit) {
         bounds_.centre = middle(block.data);
-        bounds_.level_limit = static_cast<float>(level_limit);
+        bounds_.last_limit = last_limit;
     }
 
     CellBounds make() {
-        set_extent();
+        follow_vertices();
         set_nodes();
         set_tops();
         set_lows();
+        store_steps();
         return bounds_;
     }
 
@@ -175,17 +201,31 @@ class BoundsMaker {
     }
     static std::size_t node(int row, int column) { return static_cast<std::size_t>(row * kNodes + column); }
 
-    void set_extent() {
-        float low = std::numeric_limits<float>::max(), high = std::numeric_limits<float>::lowest(),
-              radius2 = 0.0F;
-        for (const Place& place : ways_.all()) {
-            low = least(low, place.local.z);
-            high = most(high, place.local.z);
-            radius2 = most(radius2, glm::dot(place.local, place.local));
+    /// Lists the stops of the block's vertices, and takes the block's extent from them.
+    void follow_vertices() {
+        float low = std::numeric_limits<float>::max(), high = kLowest, radius2 = 0.0F;
+        stops_.reserve(block_.vertices.size() * 4);
+        first_stop_.reserve(block_.vertices.size() + 1);
+        boxes_.resize(block_.vertices.size());
+        for (std::uint32_t vertex = 0; vertex < block_.vertices.size(); ++vertex) {
+            first_stop_.push_back(static_cast<std::uint32_t>(stops_.size()));
+            places_.along(vertex, [&](std::uint32_t number, std::uint32_t step) {
+                const glm::vec3 local = places_.local(number);
+                stops_.push_back({local, step});
+                boxes_[vertex].add(places_.cell(number));
+                low = least(low, local.z);
+                high = most(high, local.z);
+                radius2 = most(radius2, glm::dot(local, local));
+            });
         }
+        first_stop_.push_back(static_cast<std::uint32_t>(stops_.size()));
         bounds_.height_range_m = high - low;
         bounds_.radius_m = std::sqrt(radius2) * 1.00001F;
         rounding_m_ = 1e-6F * bounds_.radius_m;
+    }
+
+    [[nodiscard]] std::span<const Stop> stops_of(std::uint32_t vertex) const {
+        return std::span(stops_).subspan(first_stop_[vertex], first_stop_[vertex + 1] - first_stop_[vertex]);
     }
 
     void set_nodes() {
@@ -195,7 +235,7 @@ class BoundsMaker {
                                         inset * kPostsACell * post_spacing_deg(block_.data.tile.depth);
             for (int column = 0; column < kNodes; ++column) {
                 const double height_m = block_.data.height_m(row * kPostsACell, column * kPostsACell);
-                const glm::vec3 place = frame_.local(
+                const glm::vec3 place = places_.local(
                     to_ecef({latitude_deg, post_longitude_deg(block_.data.tile, column * kPostsACell),
                              EllipsoidalHeight{height_m}}));
                 bounds_.node_x[node(row, column)] = place.x;
@@ -223,56 +263,58 @@ class BoundsMaker {
     void set_tops() {
         const NestedLevel& first = block_.levels.front();
         std::vector<std::uint8_t> counted(block_.vertices.size(), std::uint8_t{CellBounds::kCells});
-        for (int cell = 0; cell < CellBounds::kCells; ++cell) {
-            points_.clear();
-            for (std::uint32_t i = first.cell_first[static_cast<std::size_t>(cell)];
-                 i < first.cell_first[static_cast<std::size_t>(cell) + 1]; ++i) {
+        for (std::size_t cell = 0; cell < CellBounds::kCells; ++cell) {
+            vertices_.clear();
+            for (std::uint32_t i = first.cell_first[cell]; i < first.cell_first[cell + 1]; ++i) {
                 const std::uint16_t vertex = block_.indices[i];
                 if (counted[vertex] == cell) continue;
                 counted[vertex] = static_cast<std::uint8_t>(cell);
-                for (const Place& place : ways_.of(vertex)) points_.push_back(place.local);
+                vertices_.push_back(vertex);
             }
-            set_top(static_cast<std::size_t>(cell), cell_slope(cell / kSide, cell % kSide));
+            set_top(cell, cell_slope(static_cast<int>(cell) / kSide, static_cast<int>(cell) % kSide));
         }
-        points_.clear();
-        for (const Place& place : ways_.all()) points_.push_back(place.local);
-        const float columns = rise(node(kSide / 2, 0), node(kSide / 2, kSide), 0);
-        set_top(CellBounds::kCells, {columns, rise(node(0, kSide / 2), node(kSide, kSide / 2), 1)});
+        vertices_.resize(block_.vertices.size());
+        std::iota(vertices_.begin(), vertices_.end(), std::uint16_t{0});
+        set_top(CellBounds::kCells, {rise(node(kSide / 2, 0), node(kSide / 2, kSide), 0),
+                                     rise(node(0, kSide / 2), node(kSide, kSide / 2), 1)});
     }
 
-    /// The rectangle and the plane of this slope over points_.
+    /// The rectangle and the plane of this slope over vertices_.
     void set_top(std::size_t cell, glm::vec2 slope) {
         Box box;
-        float above = std::numeric_limits<float>::lowest();
-        for (const glm::vec3& point : points_) {
-            box.low = glm::min(box.low, glm::vec2{point});
-            box.high = glm::max(box.high, glm::vec2{point});
-            above = most(above, point.z - slope.x * point.x - slope.y * point.y);
+        Steps above = nothing();
+        for (const std::uint16_t vertex : vertices_) {
+            for (const Stop& stop : stops_of(vertex)) {
+                box.add(glm::vec2{stop.local});
+                above[stop.step] =
+                    most(above[stop.step], stop.local.z - slope.x * stop.local.x - slope.y * stop.local.y);
+            }
         }
-        bounds_.west[cell] = points_.empty() ? 1.0F : box.low.x - rounding_m_;
-        bounds_.east[cell] = points_.empty() ? 0.0F : box.high.x + rounding_m_;
-        bounds_.south[cell] = box.low.y - rounding_m_;
+        accumulate(above);
+        bounds_.west[cell] = vertices_.empty() ? 1.0F : box.low.x - rounding_m_;
+        bounds_.east[cell] = vertices_.empty() ? 0.0F : box.high.x + rounding_m_;
+        bounds_.south[cell] = vertices_.empty() ? 0.0F : box.low.y - rounding_m_;
         bounds_.north[cell] = box.high.y + rounding_m_;
         bounds_.slope_x[cell] = slope.x;
         bounds_.slope_y[cell] = slope.y;
-        bounds_.top[cell] = above + slope.x * bounds_.west[cell] + slope.y * bounds_.south[cell] +
-                            rounding_m_ * (2.0F + std::abs(slope.x) + std::abs(slope.y));
-    }
-
-    [[nodiscard]] EdgeLow edge(std::size_t from, glm::vec2 slope) const {
-        return {node_place(from), slope, height_[from]};
+        const float origin = slope.x * bounds_.west[cell] + slope.y * bounds_.south[cell] +
+                             rounding_m_ * (2.0F + std::abs(slope.x) + std::abs(slope.y));
+        for (std::size_t step = 0; step < tops_.size(); ++step)
+            tops_[step][cell] = vertices_.empty() ? 0.0F : above[step] + origin;
     }
 
     /// Slope at an edge: along it its own, across it the mean of the cells beside it.
-    [[nodiscard]] glm::vec2 row_slope(int row, int column) const {
+    [[nodiscard]] EdgeLow row_edge(int row, int column) const {
         const float across = 0.5F * (cell_slope(std::max(row - 1, 0), column).y +
                                      cell_slope(std::min(row, kSide - 1), column).y);
-        return {rise(node(row, column), node(row, column + 1), 0), across};
+        const std::size_t from = node(row, column);
+        return {node_place(from), {rise(from, node(row, column + 1), 0), across}, height_[from], nothing()};
     }
-    [[nodiscard]] glm::vec2 column_slope(int row, int column) const {
+    [[nodiscard]] EdgeLow column_edge(int row, int column) const {
         const float across = 0.5F * (cell_slope(row, std::max(column - 1, 0)).x +
                                      cell_slope(row, std::min(column, kSide - 1)).x);
-        return {across, rise(node(row, column), node(row + 1, column), 1)};
+        const std::size_t from = node(row, column);
+        return {node_place(from), {across, rise(from, node(row + 1, column), 1)}, height_[from], nothing()};
     }
 
     /// How far, in cells, a triangle's ground may reach beyond the box of its corners' places: great circles
@@ -287,23 +329,22 @@ class BoundsMaker {
     }
 
     void set_lows() {
-        for (int row = 0; row < kNodes; ++row) {
-            for (int column = 0; column < kSide; ++column) {
-                rows_[static_cast<std::size_t>(row * kSide + column)] =
-                    edge(node(row, column), row_slope(row, column));
-                columns_[static_cast<std::size_t>(row * kSide + column)] =
-                    edge(node(column, row), column_slope(column, row));
+        for (int line = 0; line < kNodes; ++line) {
+            for (int at = 0; at < kSide; ++at) {
+                rows_[static_cast<std::size_t>(line * kSide + at)] = row_edge(line, at);
+                columns_[static_cast<std::size_t>(line * kSide + at)] = column_edge(at, line);
             }
         }
         const NestedLevel& first = block_.levels.front();
         const float reach_cells = reach();
         for (std::uint32_t i = first.first(); i < first.first() + first.count(); i += 3) {
-            way_.clear();
-            for (std::uint32_t corner = i; corner < i + 3; ++corner) {
-                const auto way = ways_.of(block_.indices[corner]);
-                way_.insert(way_.end(), way.begin(), way.end());
-            }
-            lower_under_way(reach_cells);
+            Box box;
+            for (std::uint32_t corner = i; corner < i + 3; ++corner) box.add(boxes_[block_.indices[corner]]);
+            lower_under(box, reach_cells, [&](EdgeLow& edge) {
+                for (std::uint32_t corner = i; corner < i + 3; ++corner) {
+                    for (const Stop& stop : stops_of(block_.indices[corner])) edge.lower(stop);
+                }
+            });
         }
         if (parent_ != nullptr) lower_under_siblings(reach_cells);
         join_lows();
@@ -312,89 +353,135 @@ class BoundsMaker {
     /// Above the last level, triangles of the tile's siblings may slide over it: those of the parent's first
     /// level that are not the tile's own.
     void lower_under_siblings(float reach_cells) {
+        std::vector<Box> boxes(parent_->vertices.size());
+        for (std::uint32_t vertex = 0; vertex < boxes.size(); ++vertex) {
+            places_.along(places_.of_parent(vertex), [&](std::uint32_t number, std::uint32_t) {
+                boxes[vertex].add(places_.cell(number));
+            });
+        }
         const NestedLevel& first = parent_->levels.front();
-        const int quadrant_column = static_cast<int>(block_.data.tile.x & 1U) * (kSide / 2);
-        const int quadrant_row = static_cast<int>(block_.data.tile.y & 1U) * (kSide / 2);
-        for (int cell = 0; cell < CellBounds::kCells; ++cell) {
-            const int column = cell % kSide - quadrant_column, row = cell / kSide - quadrant_row;
-            const bool own = column >= 0 && column < kSide / 2 && row >= 0 && row < kSide / 2;
+        const int own_column = static_cast<int>(block_.data.tile.x & 1U) * (kSide / 2);
+        const int own_row = static_cast<int>(block_.data.tile.y & 1U) * (kSide / 2);
+        for (int cell = 0; cell < kSide * kSide; ++cell) {
+            const int column = cell % kSide - own_column, row = cell / kSide - own_row;
+            if (column >= 0 && column < kSide / 2 && row >= 0 && row < kSide / 2) continue;
             const auto index = static_cast<std::size_t>(cell);
-            for (std::uint32_t i = first.cell_first[index]; !own && i < first.cell_first[index + 1]; i += 3) {
-                way_.clear();
+            for (std::uint32_t i = first.cell_first[index]; i < first.cell_first[index + 1]; i += 3) {
+                Box box;
                 for (std::uint32_t corner = i; corner < i + 3; ++corner)
-                    ways_.append_way_in_parent(parent_->indices[corner], frame_, way_);
-                lower_under_way(reach_cells);
+                    box.add(boxes[parent_->indices[corner]]);
+                lower_under(box, reach_cells, [&](EdgeLow& edge) {
+                    for (std::uint32_t corner = i; corner < i + 3; ++corner) {
+                        places_.along(places_.of_parent(parent_->indices[corner]),
+                                      [&](std::uint32_t number, std::uint32_t step) {
+                                          edge.lower({places_.local(number), step});
+                                      });
+                    }
+                });
             }
         }
     }
 
-    /// Lowers the edges that a triangle may come to lie over; way_: the places its corners pass.
-    void lower_under_way(float reach_cells) {
-        Box box;
-        for (const Place& place : way_) {
-            box.low = glm::min(box.low, place.cell);
-            box.high = glm::max(box.high, place.cell);
-        }
+    /// Calls for the edges that a triangle may come to lie over, whose corners stay in a box.
+    template <typename Lower>
+    void lower_under(Box box, float reach_cells, Lower lower) {
         box.low -= reach_cells;
         box.high += reach_cells;
         constexpr auto kEnd = static_cast<float>(kSide);
         if (box.low.x > kEnd || box.low.y > kEnd || box.high.x < 0.0F || box.high.y < 0.0F) return;
-        const auto lower = [&](EdgeLow& edge) {
-            for (const Place& place : way_) edge.drop = most(edge.drop, edge.below(place.local));
+        box.low = {most(box.low.x, 0.0F), most(box.low.y, 0.0F)};
+        box.high = {least(box.high.x, kEnd), least(box.high.y, kEnd)};
+        const auto last = [](float at) { return static_cast<int>(at); };
+        const auto first = [](float at) {
+            return static_cast<int>(at) + (at > static_cast<float>(static_cast<int>(at)));
         };
-        const auto cell = [](float at) { return std::clamp(static_cast<int>(std::floor(at)), 0, kSide - 1); };
-        const auto first_line = [](float at) { return std::max(static_cast<int>(std::ceil(at)), 0); };
-        const auto last_line = [](float at) { return std::min(static_cast<int>(std::floor(at)), kSide); };
-        for (int row = first_line(box.low.y); row <= last_line(box.high.y); ++row) {
-            for (int column = cell(box.low.x); column <= cell(box.high.x); ++column)
+        const int west = last(box.low.x), east = std::min(last(box.high.x), kSide - 1);
+        const int south = last(box.low.y), north = std::min(last(box.high.y), kSide - 1);
+        for (int row = first(box.low.y); row <= last(box.high.y); ++row) {
+            for (int column = std::min(west, kSide - 1); column <= east; ++column)
                 lower(rows_[static_cast<std::size_t>(row * kSide + column)]);
         }
-        for (int column = first_line(box.low.x); column <= last_line(box.high.x); ++column) {
-            for (int row = cell(box.low.y); row <= cell(box.high.y); ++row)
+        for (int column = first(box.low.x); column <= last(box.high.x); ++column) {
+            for (int row = std::min(south, kSide - 1); row <= north; ++row)
                 lower(columns_[static_cast<std::size_t>(column * kSide + row)]);
         }
     }
 
     /// A node of a line is as low as the lower of the edges that meet there.
     void join_lows() {
-        const auto low_at = [&](const EdgeLow& edge, glm::vec2 place) {
-            if (edge.drop == std::numeric_limits<float>::lowest()) return -kBottomless;
-            return edge.height + glm::dot(edge.slope, place - edge.origin) - edge.drop -
+        for (EdgeLow& edge : rows_) accumulate(edge.drop);
+        for (EdgeLow& edge : columns_) accumulate(edge.drop);
+        const auto low_at = [&](const EdgeLow& edge, glm::vec2 place, std::size_t step) {
+            if (edge.drop[step] == kLowest) return -kBottomless;
+            return edge.height + glm::dot(edge.slope, place - edge.origin) - edge.drop[step] -
                    rounding_m_ * (2.0F + std::abs(edge.slope.x) + std::abs(edge.slope.y));
         };
         for (int line = 0; line < kNodes; ++line) {
             for (int at = 0; at < kNodes; ++at) {
                 const auto before = static_cast<std::size_t>(line * kSide + std::max(at - 1, 0));
                 const auto after = static_cast<std::size_t>(line * kSide + std::min(at, kSide - 1));
-                const std::size_t row_node = node(line, at), column_node = node(at, line);
-                bounds_.row_low[row_node] = least(low_at(rows_[before], node_place(row_node)),
-                                                  low_at(rows_[after], node_place(row_node)));
-                bounds_.column_low[column_node] = least(low_at(columns_[before], node_place(column_node)),
-                                                        low_at(columns_[after], node_place(column_node)));
+                const std::size_t of_row = node(line, at), of_column = node(at, line);
+                for (std::size_t step = 0; step < row_lows_.size(); ++step) {
+                    row_lows_[step][of_row] = least(low_at(rows_[before], node_place(of_row), step),
+                                                    low_at(rows_[after], node_place(of_row), step));
+                    column_lows_[step][of_column] =
+                        least(low_at(columns_[before], node_place(of_column), step),
+                              low_at(columns_[after], node_place(of_column), step));
+                }
+            }
+        }
+    }
+
+    /// Packs the steps' heights as units above or below the first's, rounded to the safe side.
+    void store_steps() {
+        bounds_.top = tops_.front();
+        bounds_.row_low = row_lows_.front();
+        bounds_.column_low = column_lows_.front();
+        float greatest = 0.0F;
+        for (std::size_t i = 0; i < tops_.back().size(); ++i)
+            greatest = most(greatest, tops_.back()[i] - tops_.front()[i]);
+        for (std::size_t i = 0; i < row_lows_.back().size(); ++i) {
+            greatest = most(greatest, row_lows_.front()[i] - row_lows_.back()[i]);
+            greatest = most(greatest, column_lows_.front()[i] - column_lows_.back()[i]);
+        }
+        bounds_.unit_m = greatest / 254.0F;
+        const float per_unit = greatest > 0.0F ? 254.0F / greatest : 0.0F;
+        const auto units = [&](float height) {
+            return static_cast<std::uint8_t>(std::ceil(height * per_unit));
+        };
+        for (std::size_t step = 1; step < bounds_.steps.size(); ++step) {
+            CellBounds::Step& packed = bounds_.steps[step];
+            for (std::size_t i = 0; i < packed.rise.size(); ++i)
+                packed.rise[i] = units(tops_[step][i] - tops_.front()[i]);
+            for (std::size_t i = 0; i < packed.row_drop.size(); ++i) {
+                packed.row_drop[i] = units(row_lows_.front()[i] - row_lows_[step][i]);
+                packed.column_drop[i] = units(column_lows_.front()[i] - column_lows_[step][i]);
             }
         }
     }
 
     const Block& block_;
     const Block* parent_;
-    Frame frame_;
-    Ways ways_;
+    Places places_;
     CellBounds bounds_;
     float rounding_m_ = 0.0F;
-    CellBounds::Floats<kNodes * kNodes> height_{};  ///< the own posts', at the nodes
-    std::array<EdgeLow, static_cast<std::size_t>(kNodes*kSide)> rows_{},
-        columns_{};                  ///< line * kSide + place
-    std::vector<glm::vec3> points_;  ///< scratch
-    std::vector<Place> way_;         ///< scratch
+    std::vector<Stop> stops_;                             ///< of the block's vertices, one after the other
+    std::vector<std::uint32_t> first_stop_;               ///< of a vertex, and the end
+    std::vector<Box> boxes_;                              ///< of a vertex's stops
+    std::vector<std::uint16_t> vertices_;                 ///< scratch
+    std::array<float, CellBounds::kLineNodes> height_{};  ///< the own posts', at the nodes
+    std::array<EdgeLow, kLineEdges> rows_{}, columns_{};  ///< line * kSide + place
+    std::array<std::array<float, CellBounds::kCells + 1>, kSteps> tops_{};
+    std::array<std::array<float, CellBounds::kLineNodes>, kSteps> row_lows_{}, column_lows_{};
 };
 
 }  // namespace
 
 CellBounds cell_bounds(const Block& block, const Block* parent) {
     if (block.data.tile.depth < kLeastDepth || block.levels.empty()) return {};
-    int level_limit = int{block.last_level} + kLevelsBeyond;
-    if (parent != nullptr) level_limit = std::min(level_limit, int{parent->last_level});
-    return BoundsMaker(block, parent, level_limit).make();
+    int last_limit = int{block.last_level} + CellBounds::kLevelsBeyond;
+    if (parent != nullptr) last_limit = std::min(last_limit, int{parent->last_level});
+    return BoundsMaker(block, parent, last_limit).make();
 }
 
 }  // namespace eyepoint::terrain

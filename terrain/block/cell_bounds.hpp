@@ -4,7 +4,8 @@
 #pragma once
 
 #include <array>
-#include <limits>
+#include <cstddef>
+#include <cstdint>
 
 #include <glm/mat3x3.hpp>
 
@@ -14,9 +15,9 @@ namespace eyepoint::terrain {
 
 struct Block;
 
-/// Bounds of all that a block may be drawn as while no vertex's level asked for is above `level_limit`: every
-/// vertex anywhere on its way from where it starts to where it may have slid by then (nested_motion.hpp), in
-/// the block and in its parent's. In a local frame: metres from `centre`, axes local_axes(centre).
+/// Bounds of all that a block may be drawn as: every vertex anywhere on its way from where it starts to where
+/// it may have slid by the highest level asked for at any of them (nested_motion.hpp), in the block and in
+/// its parent's. In a local frame: metres from `centre`, axes local_axes(centre).
 ///
 /// - Tops: all triangles that a cell of the index lists has, at any level, lie over its rectangle and below
 /// its
@@ -25,33 +26,46 @@ struct Block;
 /// part of
 ///   the drawn surface is below a line (where it is cut by the vertical plane through the line), whatever
 ///   cell it is of.
+///
+/// The farther vertices may slide, the looser it gets, so there is a step of bounds for each of the last
+/// levels: step n holds while no level asked for is above level_limit(n). 3.9 kB.
 struct CellBounds {
     static constexpr int kSide = 8;           ///< cells, kMeshCells
     static constexpr int kNodes = kSide + 1;  ///< a side
-    static constexpr int kCells = kSide * kSide;
-
-    template <int N>
-    using Floats = std::array<float, static_cast<std::size_t>(N)>;
+    static constexpr std::size_t kCells = std::size_t{kSide} * kSide;
+    static constexpr std::size_t kLineNodes = std::size_t{kNodes} * kNodes;
+    static constexpr int kSteps = 6;
+    /// Levels above the block's last that the last step allows for: a block is drawn farther out than its
+    /// last level asks for, as long as its parent's nearest point is too near for the parent.
+    static constexpr int kLevelsBeyond = 2;
 
     Ecef centre{0.0};
-    /// -infinity: nothing is known of the block.
-    float level_limit = -std::numeric_limits<float>::infinity();
+    int last_limit = -1;          ///< of the last step; below 0: nothing is known of the block
     float radius_m = 0.0F;        ///< of a ball around the centre that holds everything drawn
     float height_range_m = 0.0F;  ///< along the local vertical
 
-    /// Nodes, from the south-west; low heights of the node as a point of the line along its row (parallel)
-    /// and along its column (meridian).
-    Floats<kNodes * kNodes> node_x{}, node_y{}, row_low{}, column_low{};
+    /// Nodes, from the south-west; low heights, by the first step, of the node as a point of the line along
+    /// its row (parallel) and along its column (meridian).
+    std::array<float, kLineNodes> node_x{}, node_y{}, row_low{}, column_low{};
     /// Tops of the cells, from the south-west, and of the whole block last. An empty cell has west > east.
-    /// The plane's height at x, y: top + slope_x * (x - west) + slope_y * (y - south).
-    Floats<kCells + 1> west{}, east{}, south{}, north{}, top{}, slope_x{}, slope_y{};
+    /// The plane's height at x, y, by the first step: top + slope_x * (x - west) + slope_y * (y - south).
+    std::array<float, kCells + 1> west{}, east{}, south{}, north{}, top{}, slope_x{}, slope_y{};
+    /// By how many units a step is higher or lower than the first.
+    float unit_m = 0.0F;
+    struct Step {
+        std::array<std::uint8_t, kCells + 1> rise{};
+        std::array<std::uint8_t, kLineNodes> row_drop{}, column_drop{};
+    };
+    std::array<Step, kSteps> steps{};
+
+    [[nodiscard]] int level_limit(int step) const { return last_limit - (kSteps - 1 - step); }
 };
 
 /// Columns: unit vectors east, north and away from the Earth's centre, in ECEF. Undefined on the Earth's
 /// axis.
 [[nodiscard]] glm::dmat3 local_axes(const Ecef& centre);
 
-/// `parent` is the parent's block, nullptr for a root. Nothing is known (level_limit) of tiles so large that
+/// `parent` is the parent's block, nullptr for a root. Nothing is known of tiles so large that
 /// the difference between their edges and great circles counts, depths below 4. About 0.1 ms.
 [[nodiscard]] CellBounds cell_bounds(const Block& block, const Block* parent);
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
+#include <span>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -10,6 +12,7 @@
 #include <glm/matrix.hpp>
 
 #include "terrain/lod/error_level.hpp"
+#include "terrain/lod/nested_motion.hpp"
 
 namespace eyepoint::terrain {
 
@@ -17,7 +20,7 @@ namespace {
 
 constexpr int kSide = CellBounds::kSide;
 constexpr int kNodes = CellBounds::kNodes;
-constexpr auto kCells = static_cast<std::size_t>(CellBounds::kCells);
+constexpr std::size_t kCells = CellBounds::kCells;
 constexpr auto kWholeBlock = kCells;
 
 /// Hidden must be what is drawn, not only what is meant: a corner of a triangle is drawn up to 1/512 pixel
@@ -42,71 +45,104 @@ struct BlockView {
 
 /// What cells and the whole block reach in the picture at most.
 struct ProjectedTops {
-    template <typename T>
-    using Each = std::array<T, kCells + 1>;
-    Each<float> least_u, greatest_u, v, ahead_m;
-    Each<float>
-        steepest;  ///< the most of |u| and |v|; above kSteepest where a corner is not ahead of the eye
+    using Each = std::array<float, kCells + 1>;
+    Each least_u, greatest_u, v, ahead_m;
+    Each steepest;  ///< the most of |u| and |v|; above kSteepest where a corner is not ahead of the eye
 };
 
 constexpr float kBehind = 1e9F;
 
-void project_top(const BlockView& view, const CellBounds& bounds, std::size_t i, ProjectedTops& tops) {
-    float least_u = kBehind, greatest_u = -kBehind, most_v = -kBehind, ahead_m = kBehind, steepest = 0.0F;
-    float least_forward = kBehind;
-    for (int corner = 0; corner < 4; ++corner) {
-        const float run_x = (corner & 1) != 0 ? bounds.east[i] - bounds.west[i] : 0.0F;
-        const float run_y = (corner & 2) != 0 ? bounds.north[i] - bounds.south[i] : 0.0F;
-        const float x = bounds.west[i] + run_x, y = bounds.south[i] + run_y;
-        const float z = bounds.top[i] + bounds.slope_x[i] * run_x + bounds.slope_y[i] * run_y;
-        const float right = view.centre.x + view.axes[0].x * x + view.axes[1].x * y + view.axes[2].x * z;
-        const float forward = view.centre.y + view.axes[0].y * x + view.axes[1].y * y + view.axes[2].y * z;
-        const float up = view.centre.z + view.axes[0].z * x + view.axes[1].z * y + view.axes[2].z * z;
-        const float per_forward = 1.0F / forward;
-        const float u = right * per_forward, v = up * per_forward;
-        const float ahead = forward / (1.0F + up * view.per_radius);
-        least_u = u < least_u ? u : least_u;
-        greatest_u = u > greatest_u ? u : greatest_u;
-        most_v = v > most_v ? v : most_v;
-        ahead_m = ahead < ahead_m ? ahead : ahead_m;
-        least_forward = forward < least_forward ? forward : least_forward;
-        const float steep_u = u < 0.0F ? -u : u, steep_v = v < 0.0F ? -v : v;
-        steepest = steep_u > steepest ? steep_u : steepest;
-        steepest = steep_v > steepest ? steep_v : steepest;
+/// Corner by corner over all tops from first to last, in plain loops over arrays: the compiler makes vectors
+/// of them.
+void project_tops(const BlockView& view, const CellBounds& bounds, int step, std::size_t first,
+                  std::size_t last, ProjectedTops& tops) {
+    const auto& rise = bounds.steps[static_cast<std::size_t>(step)].rise;
+    const glm::vec3 x_axis = view.axes[0], y_axis = view.axes[1], z_axis = view.axes[2], centre = view.centre;
+    const float unit_m = bounds.unit_m, per_radius = view.per_radius, lean_m = view.lean_m;
+    for (std::size_t i = first; i < last; ++i) {
+        const float top = bounds.top[i] + unit_m * static_cast<float>(rise[i]);
+        const float run_x = bounds.east[i] - bounds.west[i], run_y = bounds.north[i] - bounds.south[i];
+        // The south-west corner, and the way from it to the south-east and to the north-west one.
+        const float right =
+            centre.x + x_axis.x * bounds.west[i] + y_axis.x * bounds.south[i] + z_axis.x * top;
+        const float forward =
+            centre.y + x_axis.y * bounds.west[i] + y_axis.y * bounds.south[i] + z_axis.y * top;
+        const float up = centre.z + x_axis.z * bounds.west[i] + y_axis.z * bounds.south[i] + z_axis.z * top;
+        const float rise_x = bounds.slope_x[i] * run_x, rise_y = bounds.slope_y[i] * run_y;
+        const float east_r = x_axis.x * run_x + z_axis.x * rise_x,
+                    north_r = y_axis.x * run_y + z_axis.x * rise_y;
+        const float east_f = x_axis.y * run_x + z_axis.y * rise_x,
+                    north_f = y_axis.y * run_y + z_axis.y * rise_y;
+        const float east_u = x_axis.z * run_x + z_axis.z * rise_x,
+                    north_u = y_axis.z * run_y + z_axis.z * rise_y;
+        const auto pick = [](float a, float b, float c, float d, auto better) {
+            return better(better(a, b), better(c, d));
+        };
+        const auto lesser = [](float a, float b) { return a < b ? a : b; };
+        const auto greater = [](float a, float b) { return a > b ? a : b; };
+        const float f0 = forward, f1 = forward + east_f, f2 = forward + north_f, f3 = f1 + north_f;
+        const float z0 = up, z1 = up + east_u, z2 = up + north_u, z3 = z1 + north_u;
+        const float p0 = 1.0F / f0, p1 = 1.0F / f1, p2 = 1.0F / f2, p3 = 1.0F / f3;
+        const float u0 = right * p0, u1 = (right + east_r) * p1, u2 = (right + north_r) * p2,
+                    u3 = (right + east_r + north_r) * p3;
+        const float v0 = z0 * p0, v1 = z1 * p1, v2 = z2 * p2, v3 = z3 * p3;
+        const float least_u = pick(u0, u1, u2, u3, lesser), greatest_u = pick(u0, u1, u2, u3, greater);
+        const float greatest_v = pick(v0, v1, v2, v3, greater), least_v = pick(v0, v1, v2, v3, lesser);
+        const float least_f = pick(f0, f1, f2, f3, lesser), greatest_z = pick(z0, z1, z2, z3, greater);
+        const float steepest = pick(-least_u, greatest_u, -least_v, greatest_v, greater);
+        const float lean_u = lean_m * (1.0F + kSteepest) / least_f;
+        tops.least_u[i] = least_u - lean_u;
+        tops.greatest_u[i] = greatest_u + lean_u;
+        tops.v[i] = greatest_v;
+        tops.ahead_m[i] = least_f / (1.0F + greatest_z * per_radius) - lean_m;
+        tops.steepest[i] = least_f > 0.0F ? steepest : kBehind;
     }
-    const float lean_u = view.lean_m / least_forward * (1.0F + steepest);
-    tops.least_u[i] = least_u - lean_u;
-    tops.greatest_u[i] = greatest_u + lean_u;
-    tops.v[i] = most_v;
-    tops.ahead_m[i] = ahead_m - view.lean_m;
-    tops.steepest[i] = least_forward > 0.0F ? steepest : kBehind;
 }
 
 }  // namespace
 
 /// The nodes of a block's low lines in the picture: nine along its rows, then nine along its columns.
 struct ProjectedNodes {
-    std::array<std::array<UprightPoint, kNodes>, kNodes> rows, columns;
+    using Lines = std::array<UprightPoint, CellBounds::kLineNodes>;
+    Lines rows, columns;  ///< line * kNodes + place on it
 };
 
 namespace {
 
-UprightPoint project_low(const BlockView& view, float x, float y, float z) {
-    const glm::vec3 point = view.centre + view.axes * glm::vec3{x, y, z};
-    const float u = point.x / point.y, v = point.z / point.y;
-    const bool placed = point.y > 0.0F && std::abs(u) < kSteepest && std::abs(v) < kSteepest;
-    return {u, v, placed ? point.y / (1.0F + point.z * view.per_radius) : -1.0F};
+/// Points of lines in the block's order of nodes; `drop` in units below `low`.
+using NodeValues = std::array<float, CellBounds::kLineNodes>;
+void project_lows(const BlockView& view, const CellBounds& bounds, const NodeValues& low,
+                  const std::array<std::uint8_t, CellBounds::kLineNodes>& drop, NodeValues& u, NodeValues& v,
+                  NodeValues& ahead_m) {
+    const glm::vec3 x_axis = view.axes[0], y_axis = view.axes[1], z_axis = view.axes[2], centre = view.centre;
+    const float unit_m = bounds.unit_m, per_radius = view.per_radius;
+    for (std::size_t i = 0; i < CellBounds::kLineNodes; ++i) {
+        const float x = bounds.node_x[i], y = bounds.node_y[i],
+                    z = low[i] - unit_m * static_cast<float>(drop[i]);
+        const float right = centre.x + x_axis.x * x + y_axis.x * y + z_axis.x * z;
+        const float forward = centre.y + x_axis.y * x + y_axis.y * y + z_axis.y * z;
+        const float up = centre.z + x_axis.z * x + y_axis.z * y + z_axis.z * z;
+        const float per_forward = 1.0F / forward;
+        u[i] = right * per_forward;
+        v[i] = up * per_forward;
+        const float steep_u = u[i] < 0.0F ? -u[i] : u[i], steep_v = v[i] < 0.0F ? -v[i] : v[i];
+        const float steepest = steep_u > steep_v ? steep_u : steep_v;
+        const float ahead = forward / (1.0F + up * per_radius);
+        ahead_m[i] = steepest < kSteepest ? ahead : -1.0F;
+    }
 }
 
-ProjectedNodes project_nodes(const BlockView& view, const CellBounds& bounds) {
+ProjectedNodes project_nodes(const BlockView& view, const CellBounds& bounds, int step_number) {
+    const CellBounds::Step& step = bounds.steps[static_cast<std::size_t>(step_number)];
     ProjectedNodes nodes;
-    for (std::size_t row = 0; row < kNodes; ++row) {
-        for (std::size_t column = 0; column < kNodes; ++column) {
-            const std::size_t i = row * kNodes + column;
-            nodes.rows[row][column] =
-                project_low(view, bounds.node_x[i], bounds.node_y[i], bounds.row_low[i]);
-            nodes.columns[column][row] =
-                project_low(view, bounds.node_x[i], bounds.node_y[i], bounds.column_low[i]);
+    NodeValues u, v, ahead_m;
+    project_lows(view, bounds, bounds.row_low, step.row_drop, u, v, ahead_m);
+    for (std::size_t i = 0; i < CellBounds::kLineNodes; ++i) nodes.rows[i] = {u[i], v[i], ahead_m[i]};
+    project_lows(view, bounds, bounds.column_low, step.column_drop, u, v, ahead_m);
+    for (std::size_t line = 0; line < kNodes; ++line) {
+        for (std::size_t at = 0; at < kNodes; ++at) {
+            const std::size_t i = at * kNodes + line;
+            nodes.columns[line * kNodes + at] = {u[i], v[i], ahead_m[i]};
         }
     }
     return nodes;
@@ -168,13 +204,15 @@ struct HorizonCulling::Frame {
                 static_cast<float>(1.0 / upright.radius_m), static_cast<float>(lean_m)};
     }
 
-    /// Whether the bounds hold for all that is drawn of the block in this view.
-    [[nodiscard]] bool good(const BlockDraw& draw, const CellBounds& bounds) const {
-        const double floor = *std::max_element(draw.floors.begin(), draw.floors.end());
-        if (!(floor <= double{bounds.level_limit})) return false;
+    /// The first step of the bounds that holds for all that is drawn of the block in this view.
+    [[nodiscard]] std::optional<int> step_of(const BlockDraw& draw, const CellBounds& bounds) const {
+        if (bounds.last_limit < 0) return std::nullopt;
         const double farthest_m = glm::distance(bounds.centre, upright.eye) + double{bounds.radius_m};
-        constexpr double kRounding = 1.0 + 1e-4;
-        return farthest_m * level_scale * kRounding <= std::exp2(0.5 * double{bounds.level_limit});
+        const double floor = *std::max_element(draw.floors.begin(), draw.floors.end());
+        const double level = std::max(level_at(farthest_m, level_scale) + kLevelMargin, floor);
+        if (level > bounds.last_limit) return std::nullopt;
+        return std::clamp(static_cast<int>(std::ceil(level)) - bounds.level_limit(0), 0,
+                          CellBounds::kSteps - 1);
     }
 
     /// Whether the near plane may cut a block, or the eye be below it.
@@ -184,14 +222,15 @@ struct HorizonCulling::Frame {
         const double reach_m = kNears * near_m;
         const glm::dvec3 away = upright.eye - bounds.centre;
         if (glm::length(away) > double{bounds.radius_m} * 1.25 + reach_m) return false;
-        if (!(bounds.level_limit >= 0.0F)) return true;
+        if (bounds.last_limit < 0) return true;
         const glm::dvec3 eye = glm::transpose(local_axes(bounds.centre)) * away;
         for (std::size_t i = 0; i < kCells; ++i) {
             const double x = std::clamp(eye.x, double{bounds.west[i]}, double{bounds.east[i]});
             const double y = std::clamp(eye.y, double{bounds.south[i]}, double{bounds.north[i]});
             if (bounds.west[i] > bounds.east[i] || std::hypot(eye.x - x, eye.y - y) > reach_m) continue;
             const double slope_x = double{bounds.slope_x[i]}, slope_y = double{bounds.slope_y[i]};
-            const double top = double{bounds.top[i]} + slope_x * (x - double{bounds.west[i]}) +
+            const double rise = double{bounds.unit_m} * static_cast<double>(bounds.steps.back().rise[i]);
+            const double top = double{bounds.top[i]} + rise + slope_x * (x - double{bounds.west[i]}) +
                                slope_y * (y - double{bounds.south[i]});
             if (eye.z - top < reach_m * (1.0 + std::abs(slope_x) + std::abs(slope_y))) return true;
         }
@@ -216,7 +255,8 @@ Selection HorizonCulling::cull(const LodView& view, double eye_above_ground_m, S
 
 void HorizonCulling::cull_block(const Frame& frame, const BlockDraw& draw, Selection& selection) {
     const CellBounds& bounds = draw.node->block->bounds;
-    if (!frame.good(draw, bounds)) {
+    const auto step = frame.step_of(draw, bounds);
+    if (!step) {
         kept_.push_back(draw);
         return;
     }
@@ -226,14 +266,14 @@ void HorizonCulling::cull_block(const Frame& frame, const BlockDraw& draw, Selec
         if (tops.steepest[i] > kSteepest) return TerrainHorizon::Sight::Visible;
         return horizon_.sight(tops.least_u[i], tops.greatest_u[i], tops.v[i], tops.ahead_m[i]);
     };
-    project_top(view, bounds, kWholeBlock, tops);
+    project_tops(view, bounds, *step, kWholeBlock, kWholeBlock + 1, tops);
     if (const auto whole = sight(kWholeBlock); whole != TerrainHorizon::Sight::Visible) {
         const std::uint64_t triangles = draw.indices.count / 3;
         selection.triangles -= triangles;
         if (whole == TerrainHorizon::Sight::Hidden) selection.triangles_hidden += triangles;
         return;
     }
-    for (std::size_t i = 0; i < kCells; ++i) project_top(view, bounds, i, tops);
+    project_tops(view, bounds, *step, 0, kCells, tops);
     const NestedLevel& cells = list_of(draw);
     std::uint64_t visible = 0, hidden = 0;
     for (std::size_t i = 0; i < kCells; ++i) {
@@ -242,7 +282,7 @@ void HorizonCulling::cull_block(const Frame& frame, const BlockDraw& draw, Selec
         visible |= std::uint64_t{seen == TerrainHorizon::Sight::Visible} << i;
         hidden |= std::uint64_t{seen == TerrainHorizon::Sight::Hidden} << i;
     }
-    if (visible != 0) raise(project_nodes(view, bounds), visible);
+    if (visible != 0) raise(project_nodes(view, bounds, *step), visible);
     const std::uint64_t drawn = with_short_gaps(cells, visible);
     keep_cells(draw, drawn);
     selection.triangles -= triangles_of(cells, ~drawn);
@@ -252,9 +292,11 @@ void HorizonCulling::cull_block(const Frame& frame, const BlockDraw& draw, Selec
 /// Raises the horizon by the low lines beside visible cells: what is hidden cannot raise it.
 void HorizonCulling::raise(const ProjectedNodes& nodes, std::uint64_t visible) {
     for (int line = 0; line < kNodes; ++line) {
-        const auto i = static_cast<std::size_t>(line);
-        if ((visible & rows_of_cells(line - 1, line)) != 0) horizon_.raise(nodes.rows[i]);
-        if ((visible & columns_of_cells(line - 1, line)) != 0) horizon_.raise(nodes.columns[i]);
+        const auto first = static_cast<std::size_t>(line * kNodes);
+        if ((visible & rows_of_cells(line - 1, line)) != 0)
+            horizon_.raise(std::span(nodes.rows).subspan(first, kNodes));
+        if ((visible & columns_of_cells(line - 1, line)) != 0)
+            horizon_.raise(std::span(nodes.columns).subspan(first, kNodes));
     }
 }
 
