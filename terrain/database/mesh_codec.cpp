@@ -152,8 +152,7 @@ tl::expected<std::vector<std::uint8_t>, std::string> encode_mesh(const NestedMes
                                                                  std::uint8_t first_level,
                                                                  std::uint8_t last_level,
                                                                  double height_step_m) {
-    if (auto sound = check_structure(mesh, first_level, last_level); !sound)
-        return tl::unexpected(sound.error());
+    if (auto sound = check_structure(mesh, last_level); !sound) return tl::unexpected(sound.error());
     RangeEncoder bytes;
     BitModel kind;
     bytes.bit(kind, mesh.whole_grid);
@@ -171,8 +170,7 @@ tl::expected<NestedMesh, std::string> decode_mesh(std::span<const std::uint8_t> 
     RangeDecoder decoder{bytes};
     auto mesh = read_mesh(decoder, first_level, height_step_m);
     if (!mesh) return mesh;
-    if (auto sound = check_structure(*mesh, first_level, last_level); !sound)
-        return tl::unexpected(sound.error());
+    if (auto sound = check_structure(*mesh, last_level); !sound) return tl::unexpected(sound.error());
     return mesh;
 }
 

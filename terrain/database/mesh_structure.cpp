@@ -105,8 +105,7 @@ std::int64_t doubled_area(Place a, Place b, Place c) {
 
 }  // namespace
 
-tl::expected<void, std::string> check_structure(const NestedMesh& mesh, std::uint8_t first_level,
-                                                std::uint8_t last_level) {
+tl::expected<void, std::string> check_structure(const NestedMesh& mesh, std::uint8_t last_level) {
     return check_sizes(mesh)
         .and_then([&] { return check_places(mesh); })
         .and_then([&] { return check_corners(mesh); })

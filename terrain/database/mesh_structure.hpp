@@ -13,12 +13,11 @@
 namespace eyepoint::terrain {
 
 /// Checks: at most 33 x 33 vertices; posts and fine posts rising, in the tile, no fine post at an own post;
-/// the four corner posts there, and staying; levels from first_level to last_level, or kStays; a
+/// the four corner posts there, and staying; levels to last_level, or kStays; a
 /// vertex that goes has a target that goes later or stays, one that stays has target 0; triangles with three
 /// different corners that are vertices. Not checked: that the triangles cover the tile once (check_cover). On
 /// failure: the fault, without naming the tile.
 [[nodiscard]] tl::expected<void, std::string> check_structure(const NestedMesh& mesh,
-                                                              std::uint8_t first_level,
                                                               std::uint8_t last_level);
 
 /// Whether the triangles of a mesh of sound structure, seen from above, cover the tile once: all

@@ -130,7 +130,7 @@ TEST(MeshCodec, ChangedBytesGiveASoundMeshOrNone) {
                 changed[random() % changed.size()] = static_cast<std::uint8_t>(random());
             const auto decoded = decode_mesh(changed, made.first_level, made.last_level, kStepM);
             if (!decoded) continue;
-            const auto sound = check_structure(*decoded, made.first_level, made.last_level);
+            const auto sound = check_structure(*decoded, made.last_level);
             EXPECT_TRUE(sound.has_value()) << sound.error();
         }
     }
@@ -149,7 +149,7 @@ TEST(MeshStructure, NamesWhatIsWrong) {
     const auto fault = [](auto change) {
         NestedMesh mesh = bare_mesh();
         change(mesh);
-        const auto sound = check_structure(mesh, 10, 20);
+        const auto sound = check_structure(mesh, 20);
         return sound ? std::string{"sound"} : sound.error();
     };
     const auto has = [](const std::string& text, const char* part) {

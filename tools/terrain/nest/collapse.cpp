@@ -1,0 +1,344 @@
+#include "tools/terrain/nest/collapse.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <tuple>
+
+#include "terrain/block/block.hpp"
+#include "terrain/database/database.hpp"
+#include "terrain/lod/error_level.hpp"
+
+namespace eyepoint::tools {
+
+using namespace terrain;
+
+namespace {
+
+using Vertex = std::uint16_t;
+using Triangle = std::array<Vertex, 3>;
+
+/// Share of a level's error that its mesh may have. The rest covers what is not checked: vertices sliding
+/// side by side, levels differing over a triangle, rounding.
+constexpr double kMeshShare = 0.97;
+constexpr float kNever = std::numeric_limits<float>::infinity();
+
+/// Vertices that four tiles may hand to their parent, each: so that the parent has at most kBlockVertices.
+/// Only terrain rougher than any met needs more; it gets a greater error then.
+constexpr std::size_t kMostLeft = kBlockVertices / 4;
+
+float allowed_m(double level) {
+    return static_cast<float>(kMeshShare * kFinestErrorM * std::exp2(0.5 * level));
+}
+
+/// A corner with its exact place.
+struct Placed {
+    std::int64_t x = 0;
+    std::int64_t y = 0;
+    Corner corner;
+};
+
+bool same_place(const Placed& a, const Placed& b) { return a.x == b.x && a.y == b.y; }
+
+bool counterclockwise(const Placed& a, const Placed& b, const Placed& c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) > 0;
+}
+
+class Collapse {
+  public:
+    Collapse(const CollapseRequest& request, const SampledSurface& surface)
+        : request_(request), surface_(surface), triangles_(request.mesh.triangles) {
+        const std::size_t vertices = request.mesh.vertices.size();
+        around_.resize(vertices);
+        version_.resize(vertices);
+        used_as_target_.resize(vertices, -1);
+        result_.gone_level.assign(vertices, NestedMesh::kStays);
+        result_.target.assign(vertices, 0);
+        for (const MeshVertex& vertex : request.mesh.vertices) places_.push_back(placed(vertex));
+        for (const EdgeFate& fate : request.fates) {
+            auto& steps = later_places_.emplace_back();
+            for (const EdgeFate::Step& step : fate.steps) steps.push_back({step.level, placed(step.place)});
+        }
+        for (std::size_t t = 0; t < triangles_.size(); ++t) {
+            for (const Vertex corner : triangles_[t])
+                around_[corner].push_back(static_cast<std::uint32_t>(t));
+        }
+        dead_.resize(triangles_.size(), false);
+    }
+
+    CollapseResult run() {
+        level_ = request_.first_level;
+        collapse_edges();
+        for (std::size_t v = 0; v < around_.size(); ++v) weigh(static_cast<Vertex>(v));
+        while (level_ < request_.last_level) {
+            ++level_;
+            for (const Vertex touched : collapse_edges()) weigh(touched);
+            collapse_inner(allowed_m(level_));
+        }
+        for (float more_m = 2.0F * allowed_m(level_); vertices_left() > kMostLeft && more_m < 1e7F;
+             more_m *= 2.0F) {
+            used_as_target_.assign(used_as_target_.size(), -1);
+            for (std::size_t v = 0; v < around_.size(); ++v) weigh(static_cast<Vertex>(v), more_m);
+            collapse_inner(more_m);
+        }
+        for (std::size_t t = 0; t < triangles_.size(); ++t) {
+            if (!dead_[t]) result_.coarsest.push_back(triangles_[t]);
+        }
+        return std::move(result_);
+    }
+
+  private:
+    struct LaterPlace {
+        int level;
+        Placed place;
+    };
+    struct Candidate {
+        float error_m;
+        Vertex vertex;
+        Vertex target;
+        std::uint32_t version;
+        bool operator>(const Candidate& other) const {
+            return std::tie(error_m, vertex) > std::tie(other.error_m, other.vertex);
+        }
+    };
+
+    [[nodiscard]] Placed placed(const MeshVertex& vertex) const {
+        const double side_deg = tile_side_deg(request_.tile.depth);
+        const GeographicExtent sides = extent(request_.tile);
+        const double x = static_cast<double>(vertex.x) / kPlaceUnits,
+                     y = static_cast<double>(vertex.y) / kPlaceUnits;
+        const double cells = surface_.side() - 1;
+        return {vertex.x,
+                vertex.y,
+                {x * cells, y * cells,
+                 surface_.position_m(sides.south_deg + y * side_deg, sides.west_deg + x * side_deg,
+                                     vertex.height_m)}};
+    }
+
+    [[nodiscard]] bool gone(Vertex v) const { return result_.gone_level[v] != NestedMesh::kStays; }
+
+    [[nodiscard]] std::vector<Vertex> ring(Vertex v) const {
+        std::vector<Vertex> vertices;
+        for (const std::uint32_t t : around_[v]) {
+            for (const Vertex corner : triangles_[t]) {
+                if (corner != v && std::find(vertices.begin(), vertices.end(), corner) == vertices.end())
+                    vertices.push_back(corner);
+            }
+        }
+        return vertices;
+    }
+
+    /// Takes the edge vertices whose level has come; returns the vertices whose triangles changed. The tile's
+    /// corners are never taken: they slide on in its parent's mesh.
+    std::vector<Vertex> collapse_edges() {
+        std::vector<Vertex> due, touched;
+        for (std::size_t i = 0; i < later_places_.size(); ++i) {
+            const auto v = static_cast<Vertex>(i);
+            if (!later_places_[v].empty() && later_places_[v].front().level <= level_ && !gone(v) &&
+                !is_corner(v))
+                due.push_back(v);
+        }
+        std::stable_sort(due.begin(), due.end(), [&](Vertex a, Vertex b) {
+            return later_places_[a].front().level < later_places_[b].front().level;
+        });
+        // One whose target is not beside it yet waits for those between.
+        for (bool progress = true; progress;) {
+            progress = false;
+            for (const Vertex v : due) {
+                if (gone(v)) continue;
+                const auto neighbours = ring(v);
+                const LaterPlace& next = later_places_[v].front();
+                const auto target = std::find_if(neighbours.begin(), neighbours.end(), [&](Vertex w) {
+                    return same_place(places_[w], next.place);
+                });
+                if (target == neighbours.end()) continue;
+                touched.insert(touched.end(), neighbours.begin(), neighbours.end());
+                apply(v, *target, next.level);
+                progress = true;
+                break;  // those of lower levels first
+            }
+        }
+        std::sort(touched.begin(), touched.end());
+        touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+        return touched;
+    }
+
+    [[nodiscard]] std::size_t vertices_left() const {
+        return static_cast<std::size_t>(
+            std::count(result_.gone_level.begin(), result_.gone_level.end(), NestedMesh::kStays));
+    }
+
+    void collapse_inner(float most_m) {
+        std::vector<Candidate> later;
+        while (!queue_.empty() && queue_.top().error_m <= most_m) {
+            const Candidate next = queue_.top();
+            queue_.pop();
+            if (next.version != version_[next.vertex] || gone(next.vertex)) continue;
+            if (used_as_target_[next.vertex] == level_ ||
+                (most_m <= allowed_m(level_) && !slides_well(next))) {
+                later.push_back(next);
+                continue;
+            }
+            const auto touched = ring(next.vertex);
+            apply(next.vertex, next.target, level_);
+            for (const Vertex vertex : touched) weigh(vertex);
+        }
+        for (const Candidate& candidate : later) queue_.push(candidate);
+    }
+
+    /// Queues an inner vertex with its best target.
+    void weigh(Vertex v) { weigh(v, allowed_m(request_.last_level)); }
+    void weigh(Vertex v, float most_m) {
+        if (gone(v) || request_.fates[v].on_edge) return;
+        ++version_[v];
+        Candidate best{most_m, v, v, version_[v]};
+        for (const Vertex target : ring(v)) {
+            const float error_m = error_after(v, target, best.error_m);
+            if (error_m < best.error_m || (best.target == v && error_m <= best.error_m)) {
+                best.error_m = error_m;
+                best.target = target;
+            }
+        }
+        if (best.target != v) queue_.push(best);
+    }
+
+    /// Greatest error of the triangles that a collapse would leave around the vertex; kNever when it must not
+    /// be.
+    [[nodiscard]] float error_after(Vertex v, Vertex target, float enough_m) const {
+        float greatest_m = 0.0F;
+        std::array<std::array<const Placed*, 3>, kMostAround> left{};
+        std::size_t count = 0;
+        for (const std::uint32_t t : around_[v]) {
+            const Triangle& triangle = triangles_[t];
+            if (std::find(triangle.begin(), triangle.end(), target) != triangle.end()) continue;
+            if (count == kMostAround) return kNever;
+            auto& corners = left[count++];
+            for (std::size_t i = 0; i < 3; ++i)
+                corners[i] = &places_[triangle[i] == v ? target : triangle[i]];
+            if (!counterclockwise(*corners[0], *corners[1], *corners[2])) return kNever;
+        }
+        for (std::size_t i = 0; i < count; ++i) {
+            if (is_empty(left[i])) continue;
+            const float error_m =
+                surface_.error_m(left[i][0]->corner, left[i][1]->corner, left[i][2]->corner, enough_m);
+            if (error_m > enough_m) return kNever;
+            greatest_m = std::max(greatest_m, error_m);
+        }
+        for (const std::uint32_t t : around_[v]) {
+            Triangle triangle = triangles_[t];
+            if (std::find(triangle.begin(), triangle.end(), target) != triangle.end()) continue;
+            std::replace(triangle.begin(), triangle.end(), v, target);
+            if (!outlasts_edges(triangle)) return kNever;
+        }
+        return greatest_m;
+    }
+
+    /// Whether a triangle stays unfolded and within its level's error whenever the edges' vertices go on.
+    [[nodiscard]] bool outlasts_edges(const Triangle& triangle) const {
+        int level = level_;
+        while (true) {
+            int next = std::numeric_limits<int>::max();
+            for (const Vertex corner : triangle) {
+                for (const LaterPlace& later : later_places_[corner]) {
+                    if (later.level > level) next = std::min(next, later.level);
+                }
+            }
+            if (next == std::numeric_limits<int>::max()) return true;
+            level = next;
+            const std::array<const Placed*, 3> corners{
+                &at_level(triangle[0], level), &at_level(triangle[1], level), &at_level(triangle[2], level)};
+            if (is_empty(corners)) return true;
+            if (!counterclockwise(*corners[0], *corners[1], *corners[2])) return false;
+            const float enough_m = allowed_m(level);
+            if (surface_.error_m(corners[0]->corner, corners[1]->corner, corners[2]->corner, enough_m) >
+                enough_m)
+                return false;
+        }
+    }
+
+    /// Where a vertex that is still in the mesh is at this level: only corners of the tile may have slid
+    /// away.
+    [[nodiscard]] const Placed& here(Vertex v) const {
+        return is_corner(v) ? at_level(v, level_) : places_[v];
+    }
+
+    [[nodiscard]] bool is_corner(Vertex v) const {
+        const auto at_end = [](std::int64_t at) { return at == 0 || at == kPlaceUnits; };
+        return at_end(places_[v].x) && at_end(places_[v].y);
+    }
+
+    [[nodiscard]] static bool is_empty(const std::array<const Placed*, 3>& corners) {
+        return same_place(*corners[0], *corners[1]) || same_place(*corners[1], *corners[2]) ||
+               same_place(*corners[2], *corners[0]);
+    }
+
+    [[nodiscard]] const Placed& at_level(Vertex v, int level) const {
+        const Placed* place = &places_[v];
+        for (const LaterPlace& later : later_places_[v]) {
+            if (later.level <= level) place = &later.place;
+        }
+        return *place;
+    }
+
+    /// Half-way to its target, within what half a level less allows.
+    [[nodiscard]] bool slides_well(const Candidate& candidate) const {
+        const Corner& from = here(candidate.vertex).corner;
+        const Corner& to = here(candidate.target).corner;
+        Corner half{(from.x + to.x) / 2.0, (from.y + to.y) / 2.0, {}};
+        for (std::size_t i = 0; i < 3; ++i)
+            half.position_m[i] = (from.position_m[i] + to.position_m[i]) / 2.0F;
+        const float enough_m = allowed_m(level_ - 0.5);
+        for (const std::uint32_t t : around_[candidate.vertex]) {
+            std::array<const Corner*, 3> corners{};
+            for (std::size_t i = 0; i < 3; ++i) {
+                const Vertex corner = triangles_[t][i];
+                corners[i] = corner == candidate.vertex ? &half : &here(corner).corner;
+            }
+            if (surface_.error_m(*corners[0], *corners[1], *corners[2], enough_m) > enough_m) return false;
+        }
+        return true;
+    }
+
+    void apply(Vertex v, Vertex target, int level) {
+        result_.gone_level[v] = static_cast<std::uint8_t>(level);
+        result_.target[v] = target;
+        used_as_target_[target] = level_;
+        for (const std::uint32_t t : around_[v]) {
+            Triangle& triangle = triangles_[t];
+            if (std::find(triangle.begin(), triangle.end(), target) != triangle.end()) {
+                dead_[t] = true;
+                for (const Vertex corner : triangle) {
+                    if (corner != v) std::erase(around_[corner], t);
+                }
+            } else {
+                std::replace(triangle.begin(), triangle.end(), v, target);
+                around_[target].push_back(t);
+            }
+        }
+        around_[v].clear();
+    }
+
+    static constexpr std::size_t kMostAround = 64;
+
+    const CollapseRequest& request_;
+    const SampledSurface& surface_;
+    int level_ = 0;
+    std::vector<Triangle> triangles_;
+    std::vector<bool> dead_;
+    std::vector<std::vector<std::uint32_t>> around_;  ///< triangles, by vertex
+    std::vector<Placed> places_;
+    std::vector<std::vector<LaterPlace>> later_places_;
+    std::vector<std::uint32_t> version_;
+    std::vector<int> used_as_target_;  ///< the level at which
+    std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> queue_;
+    CollapseResult result_;
+};
+
+}  // namespace
+
+CollapseResult collapse(const CollapseRequest& request, const SampledSurface& surface) {
+    return Collapse{request, surface}.run();
+}
+
+}  // namespace eyepoint::tools

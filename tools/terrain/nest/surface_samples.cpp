@@ -1,0 +1,175 @@
+#include "tools/terrain/nest/surface_samples.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "terrain/geodesy/earth.hpp"
+
+namespace eyepoint::tools {
+
+using namespace terrain;
+
+namespace {
+
+/// Every second sample; what the left out ones deviate from the middle of their neighbours goes to those.
+HeightSamples thinned(const HeightSamples& fine) {
+    HeightSamples coarse;
+    coarse.side = (fine.side + 1) / 2;
+    coarse.heights_m.resize(static_cast<std::size_t>(coarse.side) * static_cast<std::size_t>(coarse.side));
+    coarse.between_m.assign(coarse.heights_m.size(), 0.0F);
+    for (int row = 0; row < fine.side; ++row) {
+        for (int column = 0; column < fine.side; ++column) {
+            const int odd_row = row & 1, odd_column = column & 1;
+            const std::size_t low = coarse.at(row / 2, column / 2);
+            const std::size_t high = coarse.at((row + 1) / 2, (column + 1) / 2);
+            const float height_m = fine.heights_m[fine.at(row, column)];
+            float apart_m = fine.between_m[fine.at(row, column)];
+            if (odd_row == 0 && odd_column == 0) {
+                coarse.heights_m[low] = height_m;
+            } else {
+                const float middle_m = (fine.heights_m[fine.at(row - odd_row, column - odd_column)] +
+                                        fine.heights_m[fine.at(row + odd_row, column + odd_column)]) /
+                                       2.0F;
+                apart_m += std::abs(height_m - middle_m);
+            }
+            coarse.between_m[low] = std::max(coarse.between_m[low], apart_m);
+            coarse.between_m[high] = std::max(coarse.between_m[high], apart_m);
+        }
+    }
+    return coarse;
+}
+
+/// Every sample and, between two, their middle.
+HeightSamples doubled(const HeightSamples& coarse) {
+    HeightSamples fine;
+    fine.side = coarse.side * 2 - 1;
+    for (int row = 0; row < fine.side; ++row) {
+        for (int column = 0; column < fine.side; ++column) {
+            const std::size_t low = coarse.at(row / 2, column / 2);
+            const std::size_t high = coarse.at((row + 1) / 2, (column + 1) / 2);
+            fine.heights_m.push_back((coarse.heights_m[low] + coarse.heights_m[high]) / 2.0F);
+            fine.between_m.push_back(std::max(coarse.between_m[low], coarse.between_m[high]));
+        }
+    }
+    return fine;
+}
+
+}  // namespace
+
+HeightSamples HeightSamples::join(const std::array<HeightSamples, 4>& children) {
+    int part_side = 0;
+    for (const HeightSamples& child : children) part_side = std::max(part_side, child.side);
+    HeightSamples whole;
+    whole.side = part_side * 2 - 1;
+    whole.heights_m.resize(static_cast<std::size_t>(whole.side) * static_cast<std::size_t>(whole.side));
+    whole.between_m.assign(whole.heights_m.size(), 0.0F);
+    for (int quadrant = 0; quadrant < 4; ++quadrant) {
+        HeightSamples part = children[static_cast<std::size_t>(quadrant)];
+        while (part.side < part_side) part = doubled(part);
+        const int south = quadrant / 2 * (part_side - 1), west = quadrant % 2 * (part_side - 1);
+        for (int row = 0; row < part_side; ++row) {
+            for (int column = 0; column < part_side; ++column) {
+                const std::size_t to = whole.at(south + row, west + column), from = part.at(row, column);
+                whole.heights_m[to] = part.heights_m[from];
+                whole.between_m[to] = std::max(whole.between_m[to], part.between_m[from]);
+            }
+        }
+    }
+    return whole.side > kMostSamples ? thinned(whole) : whole;
+}
+
+SampledSurface::SampledSurface(TileId tile, const HeightSamples& samples)
+    : side_(samples.side), flat_(tile.depth >= kFlatDepth), between_m_(samples.between_m) {
+    const GeographicExtent sides = extent(tile);
+    const double latitude_deg = (sides.south_deg + sides.north_deg) / 2.0;
+    const double longitude_deg = (sides.west_deg + sides.east_deg) / 2.0;
+    const float middle_m = samples.heights_m[samples.at(side_ / 2, side_ / 2)];
+    origin_ = to_ecef({latitude_deg, longitude_deg, EllipsoidalHeight{middle_m}});
+    up_ = east_north_up(latitude_deg, longitude_deg)[2];
+    const double spacing_deg = tile_side_deg(tile.depth) / (side_ - 1);
+    for (auto& part : positions_m_)
+        part.resize(flat_ && &part != positions_m_.data() ? 0 : samples.heights_m.size());
+    for (int row = 0; row < side_; ++row) {
+        for (int column = 0; column < side_; ++column) {
+            const std::size_t at = samples.at(row, column);
+            const auto position = position_m(sides.south_deg + row * spacing_deg,
+                                             sides.west_deg + column * spacing_deg, samples.heights_m[at]);
+            for (std::size_t part = 0; part < (flat_ ? 1U : 3U); ++part)
+                positions_m_[part][at] = position[part];
+        }
+    }
+}
+
+std::array<float, 3> SampledSurface::position_m(double latitude_deg, double longitude_deg,
+                                                double height_m) const {
+    const Ecef from_origin = to_ecef({latitude_deg, longitude_deg, EllipsoidalHeight{height_m}}) - origin_;
+    if (flat_) return {static_cast<float>(glm::dot(from_origin, up_)), 0.0F, 0.0F};
+    return {static_cast<float>(from_origin.x), static_cast<float>(from_origin.y),
+            static_cast<float>(from_origin.z)};
+}
+
+float SampledSurface::error_m(const Corner& a, const Corner& b, const Corner& c, float enough_m) const {
+    return flat_ ? greatest<1>(a, b, c, enough_m) : greatest<3>(a, b, c, enough_m);
+}
+
+template <int kParts>
+float SampledSurface::greatest(const Corner& a, const Corner& b, const Corner& c, float enough_m) const {
+    constexpr double kRounding = 1e-7;  // samples on the sides count
+    const double area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+    // Position at (x, y) = p0 + x px + y py.
+    std::array<float, kParts> p0{}, px{}, py{};
+    for (std::size_t part = 0; part < kParts; ++part) {
+        const double ab = static_cast<double>(b.position_m[part]) - a.position_m[part];
+        const double ac = static_cast<double>(c.position_m[part]) - a.position_m[part];
+        const double by_x = (ab * (c.y - a.y) - ac * (b.y - a.y)) / area;
+        const double by_y = (ac * (b.x - a.x) - ab * (c.x - a.x)) / area;
+        px[part] = static_cast<float>(by_x);
+        py[part] = static_cast<float>(by_y);
+        p0[part] = a.position_m[part];
+    }
+    const int south = std::max(0, static_cast<int>(std::ceil(std::min({a.y, b.y, c.y}) - kRounding)));
+    const int north =
+        std::min(side_ - 1, static_cast<int>(std::floor(std::max({a.y, b.y, c.y}) + kRounding)));
+    const std::array<const Corner*, 4> around{&a, &b, &c, &a};
+    float greatest = 0.0F;
+    for (int row = south; row <= north; ++row) {
+        double west = 1e30, east = -1e30;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Corner& from = *around[i];
+            const Corner& to = *around[i + 1];
+            const double low = std::min(from.y, to.y), high = std::max(from.y, to.y);
+            if (row < low - kRounding || row > high + kRounding) continue;
+            const double share =
+                high - low < 1e-9 ? 0.0 : std::clamp((row - from.y) / (to.y - from.y), 0.0, 1.0);
+            const double x = from.x + share * (to.x - from.x);
+            west = std::min({west, x, high - low < 1e-9 ? to.x : x});
+            east = std::max({east, x, high - low < 1e-9 ? to.x : x});
+        }
+        const int first = std::max(0, static_cast<int>(std::ceil(west - kRounding)));
+        const int last = std::min(side_ - 1, static_cast<int>(std::floor(east + kRounding)));
+        const std::size_t line = static_cast<std::size_t>(row) * static_cast<std::size_t>(side_);
+        const auto up = static_cast<float>(row - a.y);
+        for (int column = first; column <= last; ++column) {
+            const std::size_t at = line + static_cast<std::size_t>(column);
+            const auto along = static_cast<float>(column - a.x);
+            float distance_m = 0.0F;
+            if constexpr (kParts == 1) {
+                distance_m = std::abs(p0[0] + along * px[0] + up * py[0] - positions_m_[0][at]);
+            } else {
+                float square = 0.0F;
+                for (std::size_t part = 0; part < kParts; ++part) {
+                    const float apart = p0[part] + along * px[part] + up * py[part] - positions_m_[part][at];
+                    square += apart * apart;
+                }
+                distance_m = std::sqrt(square);
+            }
+            greatest = std::max(greatest, distance_m + between_m_[at]);
+        }
+        if (greatest > enough_m) return greatest;
+    }
+    return greatest;
+}
+
+}  // namespace eyepoint::tools

@@ -1,0 +1,68 @@
+/// The surface below a tile as a square grid of samples, and how far a flat triangle is from it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "terrain/geodesy/position.hpp"
+#include "terrain/tiling/tile_id.hpp"
+
+namespace eyepoint::tools {
+
+/// Heights at samples a side: rows from south, samples from west. A tile without children has its posts;
+/// others their children's samples, thinned to every second one beyond kMostSamples a side.
+struct HeightSamples {
+    static constexpr int kMostSamples = 257;
+    int side = 0;
+    std::vector<float> heights_m;
+    /// How far full-resolution posts that are no samples may lie from the grid of samples around, metres.
+    std::vector<float> between_m;
+
+    [[nodiscard]] std::size_t at(int row, int column) const {
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(side) +
+               static_cast<std::size_t>(column);
+    }
+    /// Joins four children's samples (south-west, south-east, north-west, north-east), of any sides.
+    /// child_error_m: how far each child's surface lies from its own posts' grid.
+    [[nodiscard]] static HeightSamples join(const std::array<HeightSamples, 4>& children);
+};
+
+/// A corner: place in units of samples from the south-west, and position.
+struct Corner {
+    double x = 0.0;
+    double y = 0.0;
+    std::array<float, 3> position_m{};
+};
+
+/// Distances between samples and triangles. Where the Earth is all but flat (tiles of kFlatDepth and deeper)
+/// along the tile's middle vertical, between points of equal latitude and longitude; else in space between
+/// those.
+class SampledSurface {
+  public:
+    static constexpr std::uint32_t kFlatDepth = 7;
+
+    SampledSurface(terrain::TileId tile, const HeightSamples& samples);
+
+    [[nodiscard]] int side() const { return side_; }
+    /// Position of a post, in the frame the distances are taken in (only [0] counts where the Earth is flat).
+    [[nodiscard]] std::array<float, 3> position_m(double latitude_deg, double longitude_deg,
+                                                  double height_m) const;
+
+    /// Greatest distance of the samples in a counterclockwise triangle from it, metres; a number above
+    /// `enough_m` when it is more than that, as soon as that is known. Samples outside the grid are left out.
+    [[nodiscard]] float error_m(const Corner& a, const Corner& b, const Corner& c, float enough_m) const;
+
+  private:
+    template <int kParts>
+    [[nodiscard]] float greatest(const Corner& a, const Corner& b, const Corner& c, float enough_m) const;
+
+    int side_;
+    bool flat_;
+    terrain::Ecef origin_;
+    terrain::Ecef up_;
+    std::array<std::vector<float>, 3> positions_m_;
+    std::vector<float> between_m_;
+};
+
+}  // namespace eyepoint::tools
