@@ -96,6 +96,7 @@ nlohmann::json to_json(const FrameMeasure& frame) {
                         {"draws", frame.draws},
                         {"blocks_tested", frame.blocks_tested},
                         {"blocks_reused", frame.blocks_reused},
+                        {"blocks_chosen", frame.blocks_chosen},
                         {"selection_cpu_us", frame.work.cpu_ns * 1e-3},
                         {"heap_allocations", frame.work.allocations},
                         {"uploaded_bytes", frame.work.uploaded_bytes}};

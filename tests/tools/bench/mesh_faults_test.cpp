@@ -25,9 +25,7 @@ class MeshWithFaults : public ::testing::Test {
         for (MeshTriangle& triangle : mesh.triangles) {
             bool inner = true;
             for (const std::uint32_t corner : triangle.vertices) {
-                for (const int at :
-                     {int{mesh.vertices[corner].own_place.x}, int{mesh.vertices[corner].own_place.y}})
-                    inner = inner && at > 0 && at < terrain::kPlaceUnits;
+                inner = inner && mesh.vertices[corner].tile_edges == 0;
             }
             if (inner) return triangle;
         }

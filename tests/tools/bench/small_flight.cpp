@@ -57,8 +57,7 @@ std::size_t vertex_in_sight(const tools::DrawnMesh& mesh, const terrain::LodView
             bool seen = part.tile.depth == kSmallHills.detail_depth;
             for (const glm::dvec3& side : view.sides)
                 seen = seen && glm::dot(side, away) > 0.1 * glm::length(away);
-            for (const int at : {int{vertex.own_place.x}, int{vertex.own_place.y}})
-                seen = seen && at > 0 && at < terrain::kPlaceUnits;
+            seen = seen && vertex.tile_edges == 0;
             if (seen) return index;
         }
     }

@@ -65,18 +65,22 @@ class Builder {
     }
 
     [[nodiscard]] MeshVertex grid_vertex(const BlockDraw& draw, std::uint16_t index) const {
-        constexpr int kUnitsAPost = terrain::kPlaceUnits / terrain::kBlockCells;
+        constexpr int kLast = terrain::kBlockCells,
+                      kUnitsAPost = terrain::kVertexPlaceUnits / terrain::kBlockCells;
         const int column = index % terrain::kBlockPosts, row = index / terrain::kBlockPosts;
-        const glm::dvec2 in_tile = glm::dvec2{column, row} / static_cast<double>(terrain::kBlockCells);
+        const glm::dvec2 in_tile = glm::dvec2{column, row} / static_cast<double>(kLast);
+        const unsigned edges = (column == 0 ? 1U : 0U) | (column == kLast ? 2U : 0U) | (row == 0 ? 4U : 0U) |
+                               (row == kLast ? 8U : 0U);
         return {from_eye(draw.node->block->vertices[index], eye_), on_earth(draw.node->tile, in_tile),
-                glm::u16vec2{column * kUnitsAPost, row * kUnitsAPost}};
+                glm::u16vec2{column * kUnitsAPost, row * kUnitsAPost}, static_cast<std::uint8_t>(edges)};
     }
 
     [[nodiscard]] MeshVertex nested_vertex(const BlockDraw& draw, std::uint16_t index) const {
         const terrain::DrawnVertex drawn = terrain::drawn_vertex(*draw.node, index, draw.floors, motion_);
-        const std::uint32_t own = draw.node->block->vertices[index].place;
+        const BlockVertex& own = draw.node->block->vertices[index];
         return {drawn.from_eye, on_earth(draw.node->tile, drawn.place),
-                glm::u16vec2{own & 0xffffU, own >> 16}};
+                glm::u16vec2{own.place & 0xffffU, own.place >> 16},
+                static_cast<std::uint8_t>((own.motion >> 24) & 0xfU)};
     }
 
     MeshKind kind_;

@@ -19,7 +19,10 @@ using HalfTurns = glm::dvec2;
 struct MeshVertex {
     glm::vec3 from_eye{0.0F};  ///< drawn, ECEF axes, metres: the bits that the shader has
     HalfTurns place{0.0};      ///< where it is drawn
-    glm::u16vec2 own_place{};  ///< in its tile where it does not move, terrain::kPlaceUnits a side
+    /// Where it is in its tile while it does not move, terrain::kVertexPlaceUnits a side, and which of the
+    /// tile's edges it is on: bit n for terrain::kEdges[n].
+    glm::u16vec2 own_place{};
+    std::uint8_t tile_edges = 0;
 };
 
 /// Vertices by their number in DrawnMesh::vertices; counterclockwise from above.

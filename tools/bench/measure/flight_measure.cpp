@@ -21,6 +21,7 @@ class Lap {
         result.draws = static_cast<std::uint32_t>(selection.draws.size());
         result.blocks_tested = selection.blocks_tested;
         result.blocks_reused = selection.blocks_reused;
+        result.blocks_chosen = selection.blocks_chosen;
         result.work = flight_.work();
         const bool measured = frame % options_.every == 0;
         const bool before_measured =
@@ -86,7 +87,7 @@ FlightFigures summarise(std::span<const FrameMeasure> frames) {
     sum.frames = frames.size();
     if (frames.empty()) return sum;
     std::vector<double> triangles, selection_us;
-    double reused = 0.0, selection_ns = 0.0;
+    double reused = 0.0, in_view = 0.0, selection_ns = 0.0;
     for (const FrameMeasure& frame : frames) {
         triangles.push_back(static_cast<double>(frame.triangles));
         selection_us.push_back(frame.work.cpu_ns * 1e-3);
@@ -97,6 +98,7 @@ FlightFigures summarise(std::span<const FrameMeasure> frames) {
         sum.hidden_mean += static_cast<double>(frame.triangles_hidden);
         sum.tested_mean += frame.blocks_tested;
         reused += frame.blocks_reused;
+        in_view += frame.blocks_reused + frame.blocks_chosen;
         if (&frame != &frames.front()) {
             sum.allocations += frame.work.allocations;
             sum.frames_allocating += frame.work.allocations > 0 ? 1 : 0;
@@ -115,7 +117,7 @@ FlightFigures summarise(std::span<const FrameMeasure> frames) {
         sum.faults.overlaps += frame.faults.overlaps;
     }
     const auto count = static_cast<double>(frames.size());
-    sum.reused_share = sum.tested_mean > 0.0 ? reused / sum.tested_mean : 0.0;
+    sum.reused_share = in_view > 0.0 ? reused / in_view : 0.0;
     sum.ns_per_block = sum.tested_mean > 0.0 ? selection_ns / sum.tested_mean : 0.0;
     for (double* mean :
          {&sum.triangles_mean, &sum.draws_mean, &sum.hidden_mean, &sum.tested_mean, &sum.uploaded_kib_mean})

@@ -33,6 +33,7 @@ struct FrameMeasure {
     std::uint32_t draws = 0;
     std::uint32_t blocks_tested = 0;
     std::uint32_t blocks_reused = 0;
+    std::uint32_t blocks_chosen = 0;
     SelectionWork work;
     bool measured = false;
     std::uint64_t empty_triangles = 0;  ///< of `triangles`: slid shut
@@ -62,7 +63,7 @@ struct FlightFigures {
     double hidden_mean = 0.0;
     double empty_mean = 0.0;  ///< of measured frames
     double tested_mean = 0.0;
-    double reused_share = 0.0;  ///< of blocks tested
+    double reused_share = 0.0;  ///< of those chosen anew or reused
     double selection_us_mean = 0.0, selection_us_median = 0.0;
     double ns_per_block = 0.0;
     std::uint64_t allocations = 0;        ///< in all frames but the first

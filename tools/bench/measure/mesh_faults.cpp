@@ -71,13 +71,11 @@ std::vector<EdgeUse> edge_uses(const DrawnMesh& mesh) {
     return uses;
 }
 
-/// The edge of their tile that both places are on.
-std::optional<Edge> common_tile_edge(const glm::u16vec2& a, const glm::u16vec2& b) {
-    constexpr std::uint16_t kEnd = terrain::kPlaceUnits;
-    if (a.x == 0 && b.x == 0) return Edge::West;
-    if (a.x == kEnd && b.x == kEnd) return Edge::East;
-    if (a.y == 0 && b.y == 0) return Edge::South;
-    if (a.y == kEnd && b.y == kEnd) return Edge::North;
+/// The edge of their tile that both vertices are on; of several (a corner's), the first.
+std::optional<Edge> common_tile_edge(const MeshVertex& a, const MeshVertex& b) {
+    for (std::size_t i = 0; i < terrain::kEdges.size(); ++i) {
+        if ((a.tile_edges & b.tile_edges & (1U << i)) != 0) return terrain::kEdges[i];
+    }
     return std::nullopt;
 }
 
@@ -103,7 +101,7 @@ class DrawnArea {
         if (tiles_.contains(at)) return true;
         // Finer tiles may be drawn there: down to the one at the middle of the two places.
         const bool upright = edge == Edge::West || edge == Edge::East;
-        double along = (upright ? a.y + b.y : a.x + b.x) / (2.0 * terrain::kPlaceUnits);
+        double along = (upright ? a.y + b.y : a.x + b.x) / (2.0 * terrain::kVertexPlaceUnits);
         const int near_side = edge == Edge::West || edge == Edge::South ? 1 : 0;
         for (at = *beside; above_.contains(at);) {
             const int far_half = along >= 0.5 ? 1 : 0;
@@ -140,9 +138,9 @@ class FaultCount {
 
   private:
     [[nodiscard]] bool is_border(const EdgeUse& use) const {
-        const glm::u16vec2 &a = mesh_.vertices[use.from].own_place, &b = mesh_.vertices[use.to].own_place;
+        const MeshVertex &a = mesh_.vertices[use.from], &b = mesh_.vertices[use.to];
         const auto edge = common_tile_edge(a, b);
-        return edge && !area_.drawn_across(mesh_.parts[use.part].tile, *edge, a, b);
+        return edge && !area_.drawn_across(mesh_.parts[use.part].tile, *edge, a.own_place, b.own_place);
     }
 
     const DrawnMesh& mesh_;
