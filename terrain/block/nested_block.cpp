@@ -200,6 +200,7 @@ std::shared_ptr<const Block> unfold(BlockData data, const NodeInfo& info, const 
     block->has_water =
         std::any_of(data.water.begin(), data.water.end(), [](std::uint8_t flag) { return flag != 0; });
     block->image = std::move(image);
+    block->bounds = cell_bounds(*block, parent);
     return block;
 }
 

@@ -216,20 +216,23 @@ struct HorizonCulling::Frame {
     }
 
     /// Whether the near plane may cut a block, or the eye be below it.
-    [[nodiscard]] bool touches(const CellBounds& bounds) const {
+    [[nodiscard]] bool touches(const BlockDraw& draw) const {
+        const CellBounds& bounds = draw.node->block->bounds;
         constexpr double kNears =
             2.0;  // farthest corner of what the near plane cuts off, in a view that has a picture
         const double reach_m = kNears * near_m;
         const glm::dvec3 away = upright.eye - bounds.centre;
         if (glm::length(away) > double{bounds.radius_m} * 1.25 + reach_m) return false;
-        if (bounds.last_limit < 0) return true;
+        const auto step = step_of(draw, bounds);
+        if (!step) return true;
+        const auto& steps_rise = bounds.steps[static_cast<std::size_t>(*step)].rise;
         const glm::dvec3 eye = glm::transpose(local_axes(bounds.centre)) * away;
         for (std::size_t i = 0; i < kCells; ++i) {
             const double x = std::clamp(eye.x, double{bounds.west[i]}, double{bounds.east[i]});
             const double y = std::clamp(eye.y, double{bounds.south[i]}, double{bounds.north[i]});
             if (bounds.west[i] > bounds.east[i] || std::hypot(eye.x - x, eye.y - y) > reach_m) continue;
             const double slope_x = double{bounds.slope_x[i]}, slope_y = double{bounds.slope_y[i]};
-            const double rise = double{bounds.unit_m} * static_cast<double>(bounds.steps.back().rise[i]);
+            const double rise = double{bounds.unit_m} * static_cast<double>(steps_rise[i]);
             const double top = double{bounds.top[i]} + rise + slope_x * (x - double{bounds.west[i]}) +
                                slope_y * (y - double{bounds.south[i]});
             if (eye.z - top < reach_m * (1.0 + std::abs(slope_x) + std::abs(slope_y))) return true;
@@ -244,7 +247,7 @@ Selection HorizonCulling::cull(const LodView& view, double eye_above_ground_m, S
     const Frame frame{*upright, glm::transpose(upright->axes),
                       level_scale(view.tau_px + view.slack_px, view.kappa_px), view.near_m};
     for (const BlockDraw& draw : selection.draws) {
-        if (frame.touches(draw.node->block->bounds)) return selection;
+        if (frame.touches(draw)) return selection;
     }
     horizon_.reset(*upright, static_cast<float>(kMarginPx / view.kappa_px + kMarginV));
     kept_.clear();

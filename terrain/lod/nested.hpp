@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "terrain/lod/error_level.hpp"
+#include "terrain/lod/horizon_culling.hpp"
 #include "terrain/lod/lod_method.hpp"
 
 namespace eyepoint::terrain {
@@ -26,8 +27,9 @@ namespace eyepoint::terrain {
 /// tau alone, or it would draw too much. R is this frame's: tau, s and kappa may change from frame to frame.
 class NestedLod final : public LodMethod {
   public:
-    /// reuse: false makes every choice anew in every frame.
-    explicit NestedLod(bool reuse = true) : reuse_(reuse) {}
+    /// reuse: false makes every choice anew in every frame. cull: leave out what nearer terrain hides
+    /// (horizon_culling.hpp): the picture is the same, but the drawn mesh has gaps where it is not seen.
+    explicit NestedLod(bool reuse = true, bool cull = false) : reuse_(reuse), cull_(cull) {}
     [[nodiscard]] std::string_view name() const override { return "nested"; }
     [[nodiscard]] MeshKind mesh_kind() const override { return MeshKind::Nested; }
     [[nodiscard]] std::span<const std::uint16_t> indices() const override { return {}; }
@@ -78,7 +80,8 @@ class NestedLod final : public LodMethod {
     void draw(const Pending& pending, const Frame& frame);
     void wish(const Quad& quad, std::size_t lane, const Frame& frame);
 
-    bool reuse_;
+    bool reuse_, cull_;
+    HorizonCulling culling_;
     const TileTree* tree_ = nullptr;
     Ecef eye_{0.0};
     double odometer_m_ = 0.0;

@@ -28,6 +28,12 @@ std::array<glm::dvec3, 4> corner_rays(const std::array<glm::dvec3, 4>& sides) {
     return rays;
 }
 
+/// std::floor is a call on processors that need not have the instruction.
+int floored(float value) {
+    const int whole = static_cast<int>(value);
+    return whole - (static_cast<float>(whole) > value ? 1 : 0);
+}
+
 }  // namespace
 
 std::optional<UprightView> upright_view(const LodView& view) {
@@ -122,34 +128,34 @@ void TerrainHorizon::raise_segment(const UprightPoint& from, const UprightPoint&
     }
     const float rise = (to.v - from.v) / (end - begin), ahead_m = std::max(from.ahead_m, to.ahead_m);
     const auto v_at = [&](float at) { return from.v + (at - begin) * rise; };
-    const float first_border = std::ceil(begin);
-    if (end < first_border) {  // inside one column
-        if (carry.column != static_cast<int>(std::floor(begin))) return;
+    const int first_border = -floored(-begin), last_border = floored(end);
+    if (last_border < first_border) {  // inside one column
+        if (carry.column != last_border) return;
         carry.v = std::min(carry.v, to.v);
         carry.ahead_m = std::max(carry.ahead_m, ahead_m);
         return;
     }
-    if (carry.column >= 0 && static_cast<float>(carry.column) < begin && first_border > begin)
-        raise_column(carry.column, std::min({carry.v, from.v, v_at(first_border)}),
-                     std::max(carry.ahead_m, ahead_m));
-    const int first = std::max(static_cast<int>(first_border), 0);
-    const float last_border = std::floor(end);
-    const int last = std::min(static_cast<int>(last_border), kColumns);
-    float v = v_at(static_cast<float>(first));
-    for (int column = first; column < last; ++column) {
-        const float next_v = v_at(static_cast<float>(column + 1));
-        raise_column(column, std::min(v, next_v), ahead_m);
-        v = next_v;
-    }
-    carry = {last < kColumns ? static_cast<int>(last_border) : -1, std::min(v_at(last_border), to.v),
-             ahead_m};
+    const float v = v_at(static_cast<float>(first_border));
+    if (carry.column >= 0 && carry.column < first_border && carry.column < kColumns)
+        raise_columns(carry.column, carry.column + 1, std::min({carry.v, from.v, v}), 0.0F,
+                      std::max(carry.ahead_m, ahead_m));
+    const int first = std::max(first_border, 0), last = std::min(last_border, kColumns);
+    raise_columns(first, last, v + std::min(rise, 0.0F) + rise * static_cast<float>(first - first_border),
+                  rise, ahead_m);
+    carry = {last_border, std::min(v_at(static_cast<float>(last_border)), to.v), ahead_m};
 }
 
-void TerrainHorizon::raise_column(int column, float v, float ahead_m) {
-    const auto at = static_cast<std::size_t>(column);
-    if (!(v > v_[at])) return;
-    v_[at] = v;
-    ahead_m_[at] = ahead_m;
+/// Columns first to last - 1 to v, v + rise, ...; in a plain loop over arrays, of which the compiler makes
+/// vectors.
+void TerrainHorizon::raise_columns(int first, int last, float v, float rise, float ahead_m) {
+    float* const column_v = v_.data() + first;
+    float* const column_ahead_m = ahead_m_.data() + first;
+    for (int i = 0; i < last - first; ++i) {
+        const float new_v = v + rise * static_cast<float>(i);
+        const float old_v = column_v[i], old_ahead_m = column_ahead_m[i];
+        column_v[i] = new_v > old_v ? new_v : old_v;
+        column_ahead_m[i] = new_v > old_v ? ahead_m : old_ahead_m;
+    }
 }
 
 }  // namespace eyepoint::terrain

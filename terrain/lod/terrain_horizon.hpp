@@ -64,7 +64,7 @@ class TerrainHorizon {
   private:
     struct Carry;
     void raise_segment(const UprightPoint& from, const UprightPoint& to, Carry& carry);
-    void raise_column(int column, float v, float ahead_m);
+    void raise_columns(int first, int last, float v, float rise, float ahead_m);
     [[nodiscard]] float column_at(float u) const { return (u - least_u_) * columns_per_u_; }
 
     std::array<float, kColumns> v_{};        ///< everything farther ahead and below is hidden
