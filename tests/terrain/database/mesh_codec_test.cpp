@@ -172,7 +172,7 @@ TEST(MeshStructure, NamesWhatIsWrong) {
     };
     EXPECT_EQ(with_fine({7, 9, 0.0F}, 20, 0), "sound");
     EXPECT_TRUE(has(with_fine({7, 9, 0.0F}, 21, 0), "goes at level 21"));
-    EXPECT_TRUE(has(with_fine({7, 9, 0.0F}, 9, 0), "goes at level 9"));
+    EXPECT_EQ(with_fine({7, 9, 0.0F}, 9, 0), "sound");  // never drawn
     EXPECT_TRUE(has(with_fine({7, 9, 0.0F}, 20, 4), "not there any longer"));
     EXPECT_TRUE(has(with_fine({7, 9, 0.0F}, 20, 5), "not there any longer"));
     EXPECT_TRUE(has(with_fine({kPlaceUnits + 1, 9, 0.0F}, 20, 0), "outside the tile"));
