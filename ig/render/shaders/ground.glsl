@@ -11,10 +11,6 @@ struct Ground {
     float texel_metres;
 };
 
-// The second look-up is turned by a whole-number matrix, so that it repeats with the first and shows no seams; it
-// repeats often, so only its fine part is used, which fades to nothing before the eye could see the pattern.
-const mat2 kNearNoise = mat2(29.0, 11.0, -11.0, 29.0);
-const float kNearNoiseScale = 31.0161248;  // of lengths
 // Side of a texel where there is no picture: so large that none of it is seen.
 const float kNoPicture = 1e12;
 

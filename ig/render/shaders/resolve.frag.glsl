@@ -7,22 +7,25 @@ layout(binding = 1) uniform sampler2D noise;
 layout(binding = 2) uniform samplerBuffer records;  // BlockRecord (block.glsl) by slot, three texels each
 layout(binding = 3) uniform usampler2D surface;
 
+// Sides of the textures, as powers of two (noise_texture.cpp, kImageTexels).
+const float kNoiseOctaves = 8.0;
+const float kImageOctaves = 7.0;
+
 void main() {
     SurfacePoint point = unpacked_surface(texelFetch(surface, ivec2(gl_FragCoord.xy), 0));
     int at = int(point.slot) * 3;
     vec4 to_noise = texelFetch(records, at + 1);
     vec2 noise_at = point.place * to_noise.x + to_noise.yz;
-    // Steps to the next pixels that choose a texture's size as the triangle's own would.
-    vec2 step = vec2(point.place_step * to_noise.x, 0.0);
-    vec2 near_step = step * kNearNoiseScale;
+    float octave = point.octave + (log2(to_noise.x) + kNoiseOctaves);
     Ground ground = Ground(ray * (ray_corner.w / point.depth), point.normal, point.height, point.water,
-                           textureGrad(noise, noise_at, step, step.yx).rg,
-                           textureGrad(noise, kNearNoise * noise_at, near_step, near_step.yx).rg, vec3(0.0), to_noise.w);
+                           textureLod(noise, noise_at, octave).rg,
+                           textureLod(noise, kNearNoise * noise_at, octave + kNearNoiseOctaves).rg, vec3(0.0),
+                           to_noise.w);
 #ifdef IMAGES
     vec4 to_image = texelFetch(records, at);
-    vec2 image_step = vec2(point.place_step * to_image.y * (127.0 / 128.0), 0.0);
     if (to_image.x >= 0.0) {
-        ground.picture = textureGrad(images, image_coordinates(point.place, to_image), image_step, image_step.yx).rgb;
+        float image_octave = point.octave + log2(to_image.y) + kImageOctaves;
+        ground.picture = textureLod(images, image_coordinates(point.place, to_image), image_octave).rgb;
     } else {
         ground.texel_metres = kNoPicture;
     }

@@ -8,8 +8,8 @@ flat in uint tile_slot;
 layout(location = 0) out uvec4 words;
 
 void main() {
-    vec4 steps = vec4(dFdx(tile_place), dFdy(tile_place));
-    vec2 larger = max(abs(steps.xy), abs(steps.zw));
+    vec2 right = dFdx(tile_place), up = dFdy(tile_place);
+    float squared = max(dot(right, right), dot(up, up));
     words = packed_surface(SurfacePoint(normalize(normal), water, tile_place, tile_slot, height, gl_FragCoord.z,
-                                        max(larger.x, larger.y)));
+                                        0.5 * log2(max(squared, 1e-18))));
 }

@@ -6,7 +6,7 @@ struct SurfacePoint {
     uint slot;    // of the block, below 65536
     float height;      // above the sea, metres
     float depth;       // of the depth buffer
-    float place_step;  // largest change of a coordinate of the place between pixels
+    float octave;      // log2 of the larger of the place's changes to the next pixels
 };
 
 // A direction as a point of the square that an octahedron unfolds to. After Cigolla et al., "A Survey of Efficient
@@ -22,24 +22,24 @@ vec3 from_octahedral(vec2 p) {
     return normalize(n.z < 0.0 ? vec3(folded, n.z) : n);
 }
 
-// Bits: normal 2 x 12, water 8; place 2 x 16; height 16 (quarters of a metre above -1500), slot 16; place_step 10
-// (48ths of an octave below 2), depth 22 of its float's (it is positive, and 14 bits of its mantissa are enough).
-const int kDepthBits = 22;
+// Bits: normal 2 x 12, water 8; place 2 x 16; height 16 (quarters of a metre above -1500), slot 16; depth the upper 17 of
+// its float's (it is positive; a thousandth of the distance shades as well), octave 15 (1536ths below 1).
+const int kDepthBits = 17;
 
 uvec4 packed_surface(SurfacePoint point) {
     uvec2 normal = uvec2((octahedral(point.normal) * 0.5 + 0.5) * 4095.0 + 0.5);
     uvec2 place = uvec2(clamp((point.place * 0.5 + 0.25) * 65535.0 + 0.5, 0.0, 65535.0));
     uint height = uint(clamp((point.height + 1500.0) * 4.0 + 0.5, 0.0, 65535.0));
-    uint octave = uint(clamp((1.0 - log2(max(point.place_step, 1e-9))) * 48.0 + 0.5, 0.0, 1023.0));
+    uint octave = uint(clamp((1.0 - point.octave) * 1536.0 + 0.5, 0.0, 32767.0));
+    uint depth = (floatBitsToUint(point.depth) + 0x2000u) >> 14;
     return uvec4(normal.x | normal.y << 12 | uint(point.water * 255.0 + 0.5) << 24, place.x | place.y << 16,
-                 height | point.slot << 16, octave << kDepthBits | (floatBitsToUint(point.depth) + 0x100u) >> 9);
+                 height | point.slot << 16, octave << kDepthBits | depth);
 }
 
 SurfacePoint unpacked_surface(uvec4 words) {
     vec2 normal = vec2(words.x & 0xfffu, (words.x >> 12) & 0xfffu) / 4095.0 * 2.0 - 1.0;
     return SurfacePoint(from_octahedral(normal), float(words.x >> 24) / 255.0,
                         vec2(words.y & 0xffffu, words.y >> 16) / 65535.0 * 2.0 - 0.5, words.z >> 16,
-                        float(words.z & 0xffffu) * 0.25 - 1500.0,
-                        uintBitsToFloat((words.w & 0x3fffffu) << 9),
-                        exp2(1.0 - float(words.w >> kDepthBits) / 48.0));
+                        float(words.z & 0xffffu) * 0.25 - 1500.0, uintBitsToFloat((words.w & 0x1ffffu) << 14),
+                        1.0 - float(words.w >> kDepthBits) / 1536.0);
 }
