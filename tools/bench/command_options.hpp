@@ -22,5 +22,6 @@ void add_drawing_options(CLI::App& command, BenchOptions& options, bool terrain_
 void add_flight_command(CLI::App& program);
 void add_field_command(CLI::App& program);
 void add_measure_command(CLI::App& program);
+void add_goals_command(CLI::App& program);
 
 }  // namespace eyepoint::tools

@@ -56,6 +56,7 @@ int main(int argc, char** argv) {
     eyepoint::tools::add_flight_command(program);
     eyepoint::tools::add_field_command(program);
     eyepoint::tools::add_measure_command(program);
+    eyepoint::tools::add_goals_command(program);
     CLI11_PARSE(program, argc, argv);
     return EXIT_SUCCESS;
 }

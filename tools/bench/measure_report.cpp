@@ -52,12 +52,13 @@ std::string describe(const FlightFigures& figures) {
                         figures.triangles_mean, figures.triangles_median, figures.triangles_max);
     text += fmt::format("  of them slid shut         {:.0f}; left out as hidden {:.0f}\n", figures.empty_mean,
                         figures.hidden_mean);
-    text += fmt::format("draws                       {:.0f}\n", figures.draws_mean);
+    text += fmt::format("draws                       {:.0f} of {:.0f} blocks\n", figures.draws_mean,
+                        figures.blocks_drawn_mean);
     text += fmt::format("blocks tested               {:.0f}, reused {:.2f}%\n", figures.tested_mean,
                         100.0 * figures.reused_share);
-    text +=
-        fmt::format("selection, CPU us           mean {:.1f}  median {:.1f}  ({:.1f} ns a block tested)\n",
-                    figures.selection_us_mean, figures.selection_us_median, figures.ns_per_block);
+    text += fmt::format(
+        "selection, CPU us           mean {:.1f}  median {:.1f}  (median {:.1f} ns a block tested)\n",
+        figures.selection_us_mean, figures.selection_us_median, figures.median_ns_per_block);
     text += fmt::format("heap allocations            {} in {} frames after the first\n", figures.allocations,
                         figures.frames_allocating);
     text += fmt::format("uploads, KiB a frame        {:.1f}; frames with something not loaded {}\n",
@@ -74,6 +75,7 @@ nlohmann::json to_json(const FlightFigures& figures) {
             {"triangles_empty_mean", figures.empty_mean},
             {"triangles_hidden_mean", figures.hidden_mean},
             {"draws_mean", figures.draws_mean},
+            {"blocks_drawn_mean", figures.blocks_drawn_mean},
             {"blocks_tested_mean", figures.tested_mean},
             {"blocks_reused_share", figures.reused_share},
             {"selection_cpu_us_mean", figures.selection_us_mean},

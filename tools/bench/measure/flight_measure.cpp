@@ -6,6 +6,16 @@ namespace eyepoint::tools {
 
 namespace {
 
+std::uint32_t blocks_in(const terrain::Selection& selection) {
+    std::uint32_t blocks = 0;
+    const terrain::TileNode* last = nullptr;
+    for (const terrain::BlockDraw& draw : selection.draws) {
+        if (draw.node != last) ++blocks;
+        last = draw.node;
+    }
+    return blocks;
+}
+
 class Lap {
   public:
     Lap(LodFlight& flight, FullSurface& surface, std::span<const terrain::LodView> views,
@@ -19,6 +29,7 @@ class Lap {
         result.triangles = selection.triangles;
         result.triangles_hidden = selection.triangles_hidden;
         result.draws = static_cast<std::uint32_t>(selection.draws.size());
+        result.blocks_drawn = blocks_in(selection);
         result.blocks_tested = selection.blocks_tested;
         result.blocks_reused = selection.blocks_reused;
         result.blocks_chosen = selection.blocks_chosen;
@@ -86,15 +97,17 @@ FlightFigures summarise(std::span<const FrameMeasure> frames) {
     FlightFigures sum;
     sum.frames = frames.size();
     if (frames.empty()) return sum;
-    std::vector<double> triangles, selection_us;
+    std::vector<double> triangles, selection_us, block_ns;
     double reused = 0.0, in_view = 0.0, selection_ns = 0.0;
     for (const FrameMeasure& frame : frames) {
         triangles.push_back(static_cast<double>(frame.triangles));
         selection_us.push_back(frame.work.cpu_ns * 1e-3);
         selection_ns += frame.work.cpu_ns;
+        if (frame.blocks_tested > 0) block_ns.push_back(frame.work.cpu_ns / frame.blocks_tested);
         sum.triangles_mean += static_cast<double>(frame.triangles);
         sum.triangles_max = std::max(sum.triangles_max, frame.triangles);
         sum.draws_mean += frame.draws;
+        sum.blocks_drawn_mean += frame.blocks_drawn;
         sum.hidden_mean += static_cast<double>(frame.triangles_hidden);
         sum.tested_mean += frame.blocks_tested;
         reused += frame.blocks_reused;
@@ -119,12 +132,13 @@ FlightFigures summarise(std::span<const FrameMeasure> frames) {
     const auto count = static_cast<double>(frames.size());
     sum.reused_share = in_view > 0.0 ? reused / in_view : 0.0;
     sum.ns_per_block = sum.tested_mean > 0.0 ? selection_ns / sum.tested_mean : 0.0;
-    for (double* mean :
-         {&sum.triangles_mean, &sum.draws_mean, &sum.hidden_mean, &sum.tested_mean, &sum.uploaded_kib_mean})
+    for (double* mean : {&sum.triangles_mean, &sum.draws_mean, &sum.blocks_drawn_mean, &sum.hidden_mean,
+                         &sum.tested_mean, &sum.uploaded_kib_mean})
         *mean /= count;
     if (sum.measured_frames > 0) sum.empty_mean /= static_cast<double>(sum.measured_frames);
     sum.selection_us_mean = selection_ns * 1e-3 / count;
     sum.triangles_median = median(std::move(triangles));
+    sum.median_ns_per_block = median(std::move(block_ns));
     sum.selection_us_median = median(std::move(selection_us));
     return sum;
 }

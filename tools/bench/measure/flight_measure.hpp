@@ -31,6 +31,7 @@ struct FrameMeasure {
     std::uint64_t triangles = 0;
     std::uint64_t triangles_hidden = 0;
     std::uint32_t draws = 0;
+    std::uint32_t blocks_drawn = 0;
     std::uint32_t blocks_tested = 0;
     std::uint32_t blocks_reused = 0;
     std::uint32_t blocks_chosen = 0;
@@ -60,12 +61,14 @@ struct FlightFigures {
     double triangles_mean = 0.0, triangles_median = 0.0;
     std::uint64_t triangles_max = 0;
     double draws_mean = 0.0;
+    double blocks_drawn_mean = 0.0;
     double hidden_mean = 0.0;
     double empty_mean = 0.0;  ///< of measured frames
     double tested_mean = 0.0;
     double reused_share = 0.0;  ///< of those chosen anew or reused
     double selection_us_mean = 0.0, selection_us_median = 0.0;
-    double ns_per_block = 0.0;
+    double ns_per_block = 0.0;            ///< tested, over all frames
+    double median_ns_per_block = 0.0;     ///< of the frames
     std::uint64_t allocations = 0;        ///< in all frames but the first
     std::uint64_t frames_allocating = 0;  ///< of them: with any
     double uploaded_kib_mean = 0.0;
