@@ -30,6 +30,9 @@ constexpr double kMarginPx = 1.0 / 16.0;
 constexpr double kMarginV = 2e-6;
 /// Farther to a side, up or down than forward, by this: not used, for its rounding.
 constexpr float kSteepest = 8.0F;
+/// Where less than one in so many triangles is hidden, so many frames pass until the next attempt.
+constexpr std::uint64_t kWorthwhile = 50;
+constexpr int kIdleFrames = 15;
 /// A gap between runs of visible cells is drawn if it has fewer triangles: a draw more costs as much.
 constexpr std::uint32_t kGapIndices = 3 * 12;
 
@@ -43,12 +46,16 @@ struct BlockView {
     float lean_m = 0.0F;
 };
 
+}  // namespace
+
 /// What cells and the whole block reach in the picture at most.
 struct ProjectedTops {
     using Each = std::array<float, kCells + 1>;
     Each least_u, greatest_u, v, ahead_m;
     Each steepest;  ///< the most of |u| and |v|; above kSteepest where a corner is not ahead of the eye
 };
+
+namespace {
 
 constexpr float kBehind = 1e9F;
 
@@ -190,6 +197,22 @@ std::uint64_t columns_of_cells(int from, int to) {
 
 }  // namespace
 
+/// The order of a block's cells from near to far.
+struct HorizonCulling::Bands {
+    bool rows = true;    ///< else by columns
+    bool rising = true;  ///< from the south, or from the west
+
+    explicit Bands(const BlockView& view)
+        : rows(std::abs(view.axes[1].y) >= std::abs(view.axes[0].y)),
+          rising((rows ? view.axes[1].y : view.axes[0].y) > 0.0F) {}
+};
+
+/// Bits of cells.
+struct HorizonCulling::CellSights {
+    std::uint64_t visible = 0;
+    std::uint64_t hidden = 0;
+};
+
 struct HorizonCulling::Frame {
     UprightView upright;
     glm::dmat3 to_upright{1.0};
@@ -242,6 +265,10 @@ struct HorizonCulling::Frame {
 };
 
 Selection HorizonCulling::cull(const LodView& view, double eye_above_ground_m, Selection selection) {
+    if (idle_frames_ > 0) {
+        --idle_frames_;
+        return selection;
+    }
     const auto upright = upright_view(view);
     if (!upright || !(eye_above_ground_m > 0.0)) return selection;
     const Frame frame{*upright, glm::transpose(upright->axes),
@@ -253,6 +280,8 @@ Selection HorizonCulling::cull(const LodView& view, double eye_above_ground_m, S
     kept_.clear();
     for (const BlockDraw& draw : selection.draws) cull_block(frame, draw, selection);
     kept_.swap(selection.draws);
+    const std::uint64_t in_view = selection.triangles + selection.triangles_hidden;
+    if (selection.triangles_hidden * kWorthwhile < in_view) idle_frames_ = kIdleFrames;
     return selection;
 }
 
@@ -265,42 +294,56 @@ void HorizonCulling::cull_block(const Frame& frame, const BlockDraw& draw, Selec
     }
     const BlockView view = frame.view_of(bounds);
     ProjectedTops tops;
-    const auto sight = [&](std::size_t i) {
-        if (tops.steepest[i] > kSteepest) return TerrainHorizon::Sight::Visible;
-        return horizon_.sight(tops.least_u[i], tops.greatest_u[i], tops.v[i], tops.ahead_m[i]);
-    };
     project_tops(view, bounds, *step, kWholeBlock, kWholeBlock + 1, tops);
-    if (const auto whole = sight(kWholeBlock); whole != TerrainHorizon::Sight::Visible) {
+    if (const auto whole = sight(tops, kWholeBlock); whole != TerrainHorizon::Sight::Visible) {
         const std::uint64_t triangles = draw.indices.count / 3;
         selection.triangles -= triangles;
         if (whole == TerrainHorizon::Sight::Hidden) selection.triangles_hidden += triangles;
         return;
     }
     project_tops(view, bounds, *step, 0, kCells, tops);
-    const NestedLevel& cells = list_of(draw);
-    std::uint64_t visible = 0, hidden = 0;
-    for (std::size_t i = 0; i < kCells; ++i) {
-        if (cells.cell_first[i] == cells.cell_first[i + 1]) continue;
-        const auto seen = sight(i);
-        visible |= std::uint64_t{seen == TerrainHorizon::Sight::Visible} << i;
-        hidden |= std::uint64_t{seen == TerrainHorizon::Sight::Hidden} << i;
-    }
-    if (visible != 0) raise(project_nodes(view, bounds, *step), visible);
-    const std::uint64_t drawn = with_short_gaps(cells, visible);
+    const NestedLevel& list = list_of(draw);
+    const CellSights cells = look_at_cells(list, tops, project_nodes(view, bounds, *step), Bands{view});
+    const std::uint64_t drawn = with_short_gaps(list, cells.visible);
     keep_cells(draw, drawn);
-    selection.triangles -= triangles_of(cells, ~drawn);
-    selection.triangles_hidden += triangles_of(cells, hidden & ~drawn);
+    selection.triangles -= triangles_of(list, ~drawn);
+    selection.triangles_hidden += triangles_of(list, cells.hidden & ~drawn);
 }
 
-/// Raises the horizon by the low lines beside visible cells: what is hidden cannot raise it.
-void HorizonCulling::raise(const ProjectedNodes& nodes, std::uint64_t visible) {
-    for (int line = 0; line < kNodes; ++line) {
-        const auto first = static_cast<std::size_t>(line * kNodes);
-        if ((visible & rows_of_cells(line - 1, line)) != 0)
-            horizon_.raise(std::span(nodes.rows).subspan(first, kNodes));
-        if ((visible & columns_of_cells(line - 1, line)) != 0)
-            horizon_.raise(std::span(nodes.columns).subspan(first, kNodes));
+/// Band by band of cells, near to far, each raising the horizon for the next; then by the lines across the
+/// bands. Lines between hidden cells are below the horizon.
+HorizonCulling::CellSights HorizonCulling::look_at_cells(const NestedLevel& list, const ProjectedTops& tops,
+                                                         const ProjectedNodes& nodes, const Bands& bands) {
+    CellSights sights;
+    std::uint64_t open = 0;  // visible, or without triangles at this level
+    const auto raise = [&](const ProjectedNodes::Lines& lines, int line, bool along_bands) {
+        const bool rows = along_bands == bands.rows;
+        const std::uint64_t beside = rows ? rows_of_cells(line - 1, line) : columns_of_cells(line - 1, line);
+        if ((open & beside) != 0)
+            horizon_.raise(std::span(lines).subspan(static_cast<std::size_t>(line * kNodes), kNodes));
+    };
+    const auto& along = bands.rows ? nodes.rows : nodes.columns;
+    const auto& across = bands.rows ? nodes.columns : nodes.rows;
+    for (int n = 0; n < kSide; ++n) {
+        const int band = bands.rising ? n : kSide - 1 - n;
+        for (int at = 0; at < kSide; ++at) {
+            const auto i = static_cast<std::size_t>(bands.rows ? band * kSide + at : at * kSide + band);
+            const bool empty = list.cell_first[i] == list.cell_first[i + 1];
+            const auto seen = empty ? TerrainHorizon::Sight::Visible : sight(tops, i);
+            open |= std::uint64_t{seen == TerrainHorizon::Sight::Visible} << i;
+            sights.visible |= std::uint64_t{seen == TerrainHorizon::Sight::Visible && !empty} << i;
+            sights.hidden |= std::uint64_t{seen == TerrainHorizon::Sight::Hidden} << i;
+        }
+        raise(along, bands.rising ? band : band + 1, true);
     }
+    raise(along, bands.rising ? kSide : 0, true);
+    for (int line = 0; line < kNodes; ++line) raise(across, line, false);
+    return sights;
+}
+
+TerrainHorizon::Sight HorizonCulling::sight(const ProjectedTops& tops, std::size_t i) const {
+    if (tops.steepest[i] > kSteepest) return TerrainHorizon::Sight::Visible;
+    return horizon_.sight(tops.least_u[i], tops.greatest_u[i], tops.v[i], tops.ahead_m[i]);
 }
 
 /// A draw for every run of these cells.

@@ -10,13 +10,17 @@
 
 namespace eyepoint::terrain {
 
+struct ProjectedTops;
+struct ProjectedNodes;
+
 /// Goes through the draws near to far: a block whose bounds (Block::bounds) are below the horizon is left
 /// out, then cells of the others; what is left raises the horizon. No pixel changes by it.
 ///
 /// Off, so that the selection comes back as it was, for a view without an upright picture (upright_view), and
 /// for an eye below the surface, or so near it that the near plane could cut it. A block whose bounds are not
-/// known, or are not good as far away as it is drawn, is drawn and hides nothing. Thread use: one thread.
-/// Allocates only while its scratch space grows.
+/// known, or are not good as far away as it is drawn, is drawn and hides nothing. Where it found nearly
+/// nothing to leave out, it does not try for some frames. Thread use: one thread. Allocates only while its
+/// scratch space grows.
 class HorizonCulling {
   public:
     /// selection: one draw a block, each the whole of a level's list, near to far. eye_above_ground_m: height
@@ -27,13 +31,18 @@ class HorizonCulling {
 
   private:
     struct Frame;
+    struct Bands;
+    struct CellSights;
 
     void cull_block(const Frame& frame, const BlockDraw& draw, Selection& selection);
-    void raise(const struct ProjectedNodes& nodes, std::uint64_t visible);
+    [[nodiscard]] CellSights look_at_cells(const NestedLevel& list, const ProjectedTops& tops,
+                                           const ProjectedNodes& nodes, const Bands& bands);
+    [[nodiscard]] TerrainHorizon::Sight sight(const ProjectedTops& tops, std::size_t i) const;
     void keep_cells(const BlockDraw& draw, std::uint64_t drawn);
 
     TerrainHorizon horizon_;
     std::vector<BlockDraw> kept_;
+    int idle_frames_ = 0;  ///< still to pass without an attempt
 };
 
 }  // namespace eyepoint::terrain
