@@ -8,10 +8,12 @@
 #include <fmt/format.h>
 
 #include "ig/lod_view.hpp"
+#include "ig/output/picture_folder.hpp"
 #include "terrain/database/database.hpp"
 #include "tools/bench/allocation_count.hpp"
 #include "tools/bench/command_options.hpp"
 #include "tools/bench/eyes.hpp"
+#include "tools/bench/measure/error_picture.hpp"
 #include "tools/bench/measure/tolerance_match.hpp"
 #include "tools/bench/measure_report.hpp"
 
@@ -30,16 +32,39 @@ struct MeasureRequest {
     std::size_t first_frames = 0;
     std::optional<double> match_p999_px;
     std::optional<std::filesystem::path> json;
+    std::optional<std::filesystem::path> error_pictures;
 };
 
-std::vector<terrain::LodView> views_of(const MeasureRequest& request) {
+std::vector<ig::FlightEye> eyes_of(const MeasureRequest& request) {
     auto eyes = read_eyes(request.eyes);
     if (!eyes) fail(eyes.error());
     if (request.first_frames > 0 && request.first_frames < eyes->size()) eyes->resize(request.first_frames);
+    return std::move(*eyes);
+}
+
+std::vector<terrain::LodView> views_of(const MeasureRequest& request,
+                                       const std::vector<ig::FlightEye>& eyes) {
     std::vector<terrain::LodView> views;
-    for (const ig::FlightEye& eye : *eyes)
+    for (const ig::FlightEye& eye : eyes)
         views.push_back(ig::lod_view(eye.eyepoint.view, request.tau_px, request.slack_px));
     return views;
+}
+
+/// Writes the error view of every measured frame.
+SeePosts error_painter(const std::filesystem::path& folder, const std::vector<ig::FlightEye>& eyes) {
+    const auto opened = ig::PictureFolder::open(folder);
+    if (!opened) fail(opened.error());
+    return [pictures = *opened, &eyes](std::size_t frame, const PostView& view, const MeasuredPosts& posts) {
+        const ig::View& eye = eyes[frame].eyepoint.view;
+        const PictureCamera camera{eye.axes, eye.left,     eye.right,    eye.bottom,
+                                   eye.top,  eye.width_px, eye.height_px};
+        const ErrorPicture painted = paint_error(posts, view, camera);
+        ig::Picture picture{{painted.width_px, painted.height_px}, {}};
+        for (std::size_t i = 0; i < painted.rgb.size(); i += 3)
+            picture.rgba.insert(picture.rgba.end(),
+                                {painted.rgb[i], painted.rgb[i + 1], painted.rgb[i + 2], 255});
+        return pictures.write(picture, frame + 1);
+    };
 }
 
 void write(const std::filesystem::path& file, const nlohmann::json& json) {
@@ -77,8 +102,9 @@ void run_match(const MeasureRequest& request, LodFlight& flight, FullSurface& su
 }
 
 void run_measure(const MeasureRequest& request, LodFlight& flight, FullSurface& surface,
-                 const std::vector<terrain::LodView>& views) {
-    const auto frames = measure_flight(flight, surface, views, request.options);
+                 const std::vector<ig::FlightEye>& eyes) {
+    const SeePosts see = request.error_pictures ? error_painter(*request.error_pictures, eyes) : SeePosts{};
+    const auto frames = measure_flight(flight, surface, views_of(request, eyes), request.options, see);
     if (!frames) fail(frames.error());
     const FlightFigures figures = summarise(*frames);
     fmt::print("{}, tau {} px, slack {} px, morph {}: {}", request.flight.lod_method, request.tau_px,
@@ -93,7 +119,7 @@ void run_measure(const MeasureRequest& request, LodFlight& flight, FullSurface& 
 void run(MeasureRequest request) {
     request.options.morph = request.morph == "on";
     request.flight.allocations = heap_allocations;
-    const std::vector<terrain::LodView> views = views_of(request);
+    const std::vector<ig::FlightEye> eyes = eyes_of(request);
     auto opened = terrain::Database::open(request.terrain);
     if (!opened) fail(opened.error());
     const auto database = std::make_shared<const terrain::Database>(std::move(*opened));
@@ -101,9 +127,9 @@ void run(MeasureRequest request) {
     if (!flight) fail(flight.error());
     FullSurface surface(database);
     if (request.match_p999_px)
-        run_match(request, **flight, surface, views);
+        run_match(request, **flight, surface, views_of(request, eyes));
     else
-        run_measure(request, **flight, surface, views);
+        run_measure(request, **flight, surface, eyes);
 }
 
 void add_measuring(CLI::App& command, MeasureRequest& request) {
@@ -129,6 +155,12 @@ void add_measuring(CLI::App& command, MeasureRequest& request) {
             "find the tolerance at which 99.9% of the posts err by at most so many pixels (1.12 is the "
             "field's measure)")
         ->check(CLI::Range(0.05, 50.0));
+    command
+        .add_option(
+            "--error-pictures", request.error_pictures,
+            "a picture of each measured frame's post error: blue 0, green tau / 2, yellow tau, red 2 tau and "
+            "more, magenta a hole")
+        ->type_name("DIR");
     command.add_option("--json", request.json, "figures as JSON")->type_name("FILE");
 }
 

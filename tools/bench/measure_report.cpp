@@ -15,6 +15,12 @@ std::string posts_table(const FlightFigures& figures) {
     text += fmt::format(
         "post error, px              max {:.3f}  p99.9 {:.3f} (worst frame {:.3f})  rms {:.3f}\n",
         posts.error.maximum(), posts.error.percentile(0.999), figures.worst_frame_p999_px, posts.error.rms());
+    const WorstPost& worst = posts.worst;
+    text += fmt::format("  worst                     tile {}/{}-{}, row {}, column {}: {:+.2f} m{}\n",
+                        worst.tile.depth, worst.tile.x, worst.tile.y, worst.row, worst.column, worst.above_m,
+                        worst.folded
+                            ? fmt::format(", under a fold; max off folds {:.3f} px", posts.most_off_folds_px)
+                            : std::string{});
     text += fmt::format("pops, px                    max {:.3f}  p99.9 {:.3f}  ({} posts)\n",
                         figures.pops.maximum(), figures.pops.percentile(0.999), figures.pops.count());
     text += fmt::format("edges                       {}, borders {}, cracks {}, overlaps {}\n",
@@ -34,7 +40,16 @@ nlohmann::json to_json(const PostFigures& posts) {
     return {{"error", to_json(posts.error)},
             {"uncovered", posts.uncovered},
             {"overlapped", posts.overlapped},
-            {"folded", posts.folded}};
+            {"folded", posts.folded},
+            {"max_off_folds_px", posts.most_off_folds_px},
+            {"worst",
+             {{"depth", posts.worst.tile.depth},
+              {"x", posts.worst.tile.x},
+              {"y", posts.worst.tile.y},
+              {"row", posts.worst.row},
+              {"column", posts.worst.column},
+              {"above_m", posts.worst.above_m},
+              {"under_fold", posts.worst.folded}}}};
 }
 
 nlohmann::json to_json(const MeshFaults& faults) {

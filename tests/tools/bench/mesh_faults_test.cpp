@@ -9,14 +9,13 @@
 namespace eyepoint::tools {
 namespace {
 
-using testing::kSmallHills;
 using testing::look_north;
 using testing::SmallFlight;
 using testing::vertex_in_sight;
 
 class MeshWithFaults : public ::testing::Test {
   protected:
-    SmallFlight flight{kSmallHills};
+    SmallFlight flight{testing::small_hills()};
     terrain::LodView view = look_north(46.4, 8.25, 6000.0, 30.0, 2.0);
     DrawnMesh mesh = flight.mesh(view);
 

@@ -11,7 +11,6 @@
 namespace eyepoint::tools {
 namespace {
 
-using testing::kSmallHills;
 using testing::look_north;
 using testing::SmallFlight;
 using testing::vertex_in_sight;
@@ -38,7 +37,7 @@ double expected_px(const DrawnMesh& mesh, std::size_t vertex, const terrain::Lod
 
 class RaisedVertex : public ::testing::Test {
   protected:
-    SmallFlight flight{kSmallHills};
+    SmallFlight flight{testing::small_hills()};
     terrain::LodView view = look_north(46.4, 8.25, 6000.0, 30.0, 0.05);
     DrawnMesh mesh = flight.mesh(view);
     std::size_t vertex = vertex_in_sight(mesh, view);

@@ -29,8 +29,13 @@ terrain::LodView look_north(double latitude_deg, double longitude_deg, double he
         .near_m = 1.0};
 }
 
-SmallFlight::SmallFlight(const AnalyticTerrain& terrain)
-    : database_(make_database(terrain, scratch_.path() / "db")), surface_(database_) {
+std::shared_ptr<const terrain::Database> small_hills() {
+    static const SmallPlace hills{kSmallHills};
+    return hills.database();
+}
+
+SmallFlight::SmallFlight(std::shared_ptr<const terrain::Database> database)
+    : database_(std::move(database)), surface_(database_) {
     auto flight = tools::LodFlight::create(database_, {.lod_method = "regular"});
     if (!flight) throw std::runtime_error(flight.error());
     flight_ = std::move(*flight);

@@ -13,10 +13,22 @@ namespace eyepoint::testing {
 terrain::LodView look_north(double latitude_deg, double longitude_deg, double height_m, double down_deg,
                             double tau_px);
 
+/// A database of a small place, made in a folder of its own.
+class SmallPlace {
+  public:
+    explicit SmallPlace(const AnalyticTerrain& terrain)
+        : database_(make_database(terrain, scratch_.path() / "db")) {}
+    [[nodiscard]] std::shared_ptr<const terrain::Database> database() const { return database_; }
+
+  private:
+    ScratchFolder scratch_;
+    std::shared_ptr<const terrain::Database> database_;
+};
+
 /// A database with detail around a place, and the regular method on it.
 class SmallFlight {
   public:
-    explicit SmallFlight(const AnalyticTerrain& terrain);
+    explicit SmallFlight(std::shared_ptr<const terrain::Database> database);
 
     /// What is drawn for a view when everything is loaded.
     [[nodiscard]] tools::DrawnMesh mesh(const terrain::LodView& view);
@@ -26,14 +38,14 @@ class SmallFlight {
     }
 
   private:
-    ScratchFolder scratch_;
     std::shared_ptr<const terrain::Database> database_;
     std::unique_ptr<tools::LodFlight> flight_;
     tools::FullSurface surface_;
 };
 
-/// Small enough to be made for every test.
+/// Hills around 46.5 N 8.25 E, made once in a process.
 inline constexpr AnalyticTerrain kSmallHills{.half_size_deg = 0.2, .detail_depth = 10};
+[[nodiscard]] std::shared_ptr<const terrain::Database> small_hills();
 
 /// A vertex of the mesh that is in view, at a post of full resolution, and not on a tile's edge.
 [[nodiscard]] std::size_t vertex_in_sight(const tools::DrawnMesh& mesh, const terrain::LodView& view);

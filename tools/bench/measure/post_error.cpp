@@ -189,17 +189,27 @@ void add(PostFigures& figures, const MeasuredTile& tile) {
         if (std::isnan(tile.px_per_m[post])) continue;
         if (tile.layers[post] > 1) ++figures.overlapped;
         if (tile.folded[post]) ++figures.folded;
-        if (std::isnan(tile.above_m[post]))
+        if (std::isnan(tile.above_m[post])) {
             ++figures.uncovered;
-        else
-            figures.error.add(std::abs(tile.above_m[post]) * tile.px_per_m[post]);
+            continue;
+        }
+        const float error_px = std::abs(tile.above_m[post]) * tile.px_per_m[post];
+        figures.error.add(error_px);
+        if (!tile.folded[post])
+            figures.most_off_folds_px = std::max<double>(figures.most_off_folds_px, error_px);
+        if (error_px <= figures.worst.error_px) continue;
+        const int number = static_cast<int>(post);
+        figures.worst = {tile.tile->tile, number / PostTile::kSide, number % PostTile::kSide,
+                         error_px,        tile.above_m[post],       tile.folded[post]};
     }
 }
 
 }  // namespace
 
 void PostFigures::merge(const PostFigures& other) {
+    if (other.worst.error_px > worst.error_px) worst = other.worst;
     error.merge(other.error);
+    most_off_folds_px = std::max(most_off_folds_px, other.most_off_folds_px);
     uncovered += other.uncovered;
     overlapped += other.overlapped;
     folded += other.folded;

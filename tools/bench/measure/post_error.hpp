@@ -35,11 +35,22 @@ struct MeasuredPosts {
     std::vector<MeasuredTile> tiles;
 };
 
+/// The post with the greatest error.
+struct WorstPost {
+    terrain::TileId tile;
+    int row = 0, column = 0;
+    float error_px = -1.0F;  ///< less than 0: there is none
+    float above_m = 0.0F;
+    bool folded = false;
+};
+
 struct PostFigures {
-    PixelDistribution error;       ///< |above| in pixels of all posts in view that are covered
-    std::uint64_t uncovered = 0;   ///< posts in view over which nothing is drawn: holes
-    std::uint64_t overlapped = 0;  ///< covered by more than one layer
-    std::uint64_t folded = 0;      ///< under a triangle that is seen from below
+    WorstPost worst;
+    PixelDistribution error;         ///< |above| in pixels of all posts in view that are covered
+    double most_off_folds_px = 0.0;  ///< the greatest of posts that are under no fold
+    std::uint64_t uncovered = 0;     ///< posts in view over which nothing is drawn: holes
+    std::uint64_t overlapped = 0;    ///< covered by more than one layer
+    std::uint64_t folded = 0;        ///< under a triangle that is seen from below
     void merge(const PostFigures& other);
 };
 
