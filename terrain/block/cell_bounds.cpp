@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -67,6 +67,7 @@ struct Box {
 struct Stop {
     glm::vec3 local{0.0F};
     std::uint32_t step = 0;
+    glm::vec2 cell{0.0F};
 };
 
 /// The vertices of the block, and those of the parent that are wanted, as seen from the block.
@@ -148,33 +149,19 @@ class Places {
     std::vector<bool> known_;
 };
 
-/// By step; rising.
-using Steps = std::array<float, static_cast<std::size_t>(kSteps)>;
-
-constexpr Steps nothing() {
-    Steps steps{};
-    steps.fill(kLowest);
-    return steps;
-}
-
 /// A plane over one edge of the grid of nodes, and how far below it the mesh may come.
 struct EdgeLow {
     glm::vec2 origin{0.0F};
     glm::vec2 slope{0.0F};
     float height = 0.0F;
-    Steps drop = nothing();
+    float drop = kLowest;  ///< kLowest: nothing is drawn over the edge
 
     void lower(const Stop& stop) {
         const float below =
             height + slope.x * (stop.local.x - origin.x) + slope.y * (stop.local.y - origin.y) - stop.local.z;
-        drop[stop.step] = most(drop[stop.step], below);
+        drop = most(drop, below);
     }
 };
-
-/// A step allows for all that the one before does.
-void accumulate(Steps& steps) {
-    for (std::size_t step = 1; step < steps.size(); ++step) steps[step] = most(steps[step], steps[step - 1]);
-}
 
 class BoundsMaker {
   public:
@@ -187,9 +174,11 @@ class BoundsMaker {
     CellBounds make() {
         follow_vertices();
         set_nodes();
-        set_tops();
-        set_lows();
-        store_steps();
+        set_edges();
+        for (step_ = 0; step_ < kSteps; ++step_) {
+            set_tops();
+            set_lows();
+        }
         return bounds_;
     }
 
@@ -206,13 +195,11 @@ class BoundsMaker {
         float low = std::numeric_limits<float>::max(), high = kLowest, radius2 = 0.0F;
         stops_.reserve(block_.vertices.size() * 4);
         first_stop_.reserve(block_.vertices.size() + 1);
-        boxes_.resize(block_.vertices.size());
         for (std::uint32_t vertex = 0; vertex < block_.vertices.size(); ++vertex) {
             first_stop_.push_back(static_cast<std::uint32_t>(stops_.size()));
             places_.along(vertex, [&](std::uint32_t number, std::uint32_t step) {
                 const glm::vec3 local = places_.local(number);
-                stops_.push_back({local, step});
-                boxes_[vertex].add(places_.cell(number));
+                stops_.push_back({local, step, places_.cell(number)});
                 low = least(low, local.z);
                 high = most(high, local.z);
                 radius2 = most(radius2, glm::dot(local, local));
@@ -226,6 +213,12 @@ class BoundsMaker {
 
     [[nodiscard]] std::span<const Stop> stops_of(std::uint32_t vertex) const {
         return std::span(stops_).subspan(first_stop_[vertex], first_stop_[vertex + 1] - first_stop_[vertex]);
+    }
+
+    void add_way(Box& box, std::uint32_t vertex) const {
+        for (const Stop& stop : stops_of(vertex)) {
+            if (stop.step <= static_cast<std::uint32_t>(step_)) box.add(stop.cell);
+        }
     }
 
     void set_nodes() {
@@ -260,8 +253,16 @@ class BoundsMaker {
         return {0.5F * (rise(sw, se, 0) + rise(nw, ne, 0)), 0.5F * (rise(sw, nw, 1) + rise(se, ne, 1))};
     }
 
+    /// The first list that a step allows for.
+    [[nodiscard]] const NestedLevel& list() const {
+        const int level =
+            std::clamp(bounds_.list_level(step_), int{block_.first_level}, int{block_.last_level});
+        return block_.levels[static_cast<std::size_t>(level - block_.first_level)];
+    }
+    [[nodiscard]] CellBounds::Step& step() { return bounds_.steps[static_cast<std::size_t>(step_)]; }
+
     void set_tops() {
-        const NestedLevel& first = block_.levels.front();
+        const NestedLevel& first = list();
         std::vector<std::uint8_t> counted(block_.vertices.size(), std::uint8_t{CellBounds::kCells});
         for (std::size_t cell = 0; cell < CellBounds::kCells; ++cell) {
             vertices_.clear();
@@ -273,8 +274,12 @@ class BoundsMaker {
             }
             set_top(cell, cell_slope(static_cast<int>(cell) / kSide, static_cast<int>(cell) % kSide));
         }
-        vertices_.resize(block_.vertices.size());
-        std::iota(vertices_.begin(), vertices_.end(), std::uint16_t{0});
+        std::fill(counted.begin(), counted.end(), std::uint8_t{0});
+        vertices_.clear();
+        for (std::uint32_t i = first.first(); i < first.first() + first.count(); ++i) {
+            if (std::exchange(counted[block_.indices[i]], std::uint8_t{1}) == 0)
+                vertices_.push_back(block_.indices[i]);
+        }
         set_top(CellBounds::kCells, {rise(node(kSide / 2, 0), node(kSide / 2, kSide), 0),
                                      rise(node(0, kSide / 2), node(kSide, kSide / 2), 1)});
     }
@@ -282,25 +287,25 @@ class BoundsMaker {
     /// The rectangle and the plane of this slope over vertices_.
     void set_top(std::size_t cell, glm::vec2 slope) {
         Box box;
-        Steps above = nothing();
+        float above = kLowest;
         for (const std::uint16_t vertex : vertices_) {
             for (const Stop& stop : stops_of(vertex)) {
+                if (stop.step > static_cast<std::uint32_t>(step_)) break;
                 box.add(glm::vec2{stop.local});
-                above[stop.step] =
-                    most(above[stop.step], stop.local.z - slope.x * stop.local.x - slope.y * stop.local.y);
+                above = most(above, stop.local.z - slope.x * stop.local.x - slope.y * stop.local.y);
             }
         }
-        accumulate(above);
-        bounds_.west[cell] = vertices_.empty() ? 1.0F : box.low.x - rounding_m_;
-        bounds_.east[cell] = vertices_.empty() ? 0.0F : box.high.x + rounding_m_;
-        bounds_.south[cell] = vertices_.empty() ? 0.0F : box.low.y - rounding_m_;
-        bounds_.north[cell] = box.high.y + rounding_m_;
+        const bool empty = vertices_.empty();
+        CellBounds::Step& bounds = step();
+        bounds.west[cell] = empty ? 1.0F : box.low.x - rounding_m_;
+        bounds.east[cell] = empty ? 0.0F : box.high.x + rounding_m_;
+        bounds.south[cell] = empty ? 0.0F : box.low.y - rounding_m_;
+        bounds.north[cell] = empty ? 0.0F : box.high.y + rounding_m_;
         bounds_.slope_x[cell] = slope.x;
         bounds_.slope_y[cell] = slope.y;
-        const float origin = slope.x * bounds_.west[cell] + slope.y * bounds_.south[cell] +
-                             rounding_m_ * (2.0F + std::abs(slope.x) + std::abs(slope.y));
-        for (std::size_t step = 0; step < tops_.size(); ++step)
-            tops_[step][cell] = vertices_.empty() ? 0.0F : above[step] + origin;
+        bounds.top[cell] = empty ? 0.0F
+                                 : above + slope.x * bounds.west[cell] + slope.y * bounds.south[cell] +
+                                       rounding_m_ * (2.0F + std::abs(slope.x) + std::abs(slope.y));
     }
 
     /// Slope at an edge: along it its own, across it the mean of the cells beside it.
@@ -308,13 +313,13 @@ class BoundsMaker {
         const float across = 0.5F * (cell_slope(std::max(row - 1, 0), column).y +
                                      cell_slope(std::min(row, kSide - 1), column).y);
         const std::size_t from = node(row, column);
-        return {node_place(from), {rise(from, node(row, column + 1), 0), across}, height_[from], nothing()};
+        return {node_place(from), {rise(from, node(row, column + 1), 0), across}, height_[from]};
     }
     [[nodiscard]] EdgeLow column_edge(int row, int column) const {
         const float across = 0.5F * (cell_slope(row, std::max(column - 1, 0)).x +
                                      cell_slope(row, std::min(column, kSide - 1)).x);
         const std::size_t from = node(row, column);
-        return {node_place(from), {across, rise(from, node(row + 1, column), 1)}, height_[from], nothing()};
+        return {node_place(from), {across, rise(from, node(row + 1, column), 1)}, height_[from]};
     }
 
     /// How far, in cells, a triangle's ground may reach beyond the box of its corners' places: great circles
@@ -328,25 +333,33 @@ class BoundsMaker {
                                   kInset);
     }
 
-    void set_lows() {
+    void set_edges() {
         for (int line = 0; line < kNodes; ++line) {
             for (int at = 0; at < kSide; ++at) {
                 rows_[static_cast<std::size_t>(line * kSide + at)] = row_edge(line, at);
                 columns_[static_cast<std::size_t>(line * kSide + at)] = column_edge(at, line);
             }
         }
-        const NestedLevel& first = block_.levels.front();
+    }
+
+    void set_lows() {
+        for (EdgeLow& edge : rows_) edge.drop = kLowest;
+        for (EdgeLow& edge : columns_) edge.drop = kLowest;
+        const NestedLevel& first = list();
         const float reach_cells = reach();
         for (std::uint32_t i = first.first(); i < first.first() + first.count(); i += 3) {
             Box box;
-            for (std::uint32_t corner = i; corner < i + 3; ++corner) box.add(boxes_[block_.indices[corner]]);
+            for (std::uint32_t corner = i; corner < i + 3; ++corner) add_way(box, block_.indices[corner]);
             lower_under(box, reach_cells, [&](EdgeLow& edge) {
                 for (std::uint32_t corner = i; corner < i + 3; ++corner) {
-                    for (const Stop& stop : stops_of(block_.indices[corner])) edge.lower(stop);
+                    for (const Stop& stop : stops_of(block_.indices[corner])) {
+                        if (stop.step <= static_cast<std::uint32_t>(step_)) edge.lower(stop);
+                    }
                 }
             });
         }
-        if (parent_ != nullptr) lower_under_siblings(reach_cells);
+        if (parent_ != nullptr && bounds_.level_limit(step_) > int{block_.last_level})
+            lower_under_siblings(reach_cells);
         join_lows();
     }
 
@@ -355,8 +368,8 @@ class BoundsMaker {
     void lower_under_siblings(float reach_cells) {
         std::vector<Box> boxes(parent_->vertices.size());
         for (std::uint32_t vertex = 0; vertex < boxes.size(); ++vertex) {
-            places_.along(places_.of_parent(vertex), [&](std::uint32_t number, std::uint32_t) {
-                boxes[vertex].add(places_.cell(number));
+            places_.along(places_.of_parent(vertex), [&](std::uint32_t number, std::uint32_t step) {
+                if (step <= static_cast<std::uint32_t>(step_)) boxes[vertex].add(places_.cell(number));
             });
         }
         const NestedLevel& first = parent_->levels.front();
@@ -374,7 +387,8 @@ class BoundsMaker {
                     for (std::uint32_t corner = i; corner < i + 3; ++corner) {
                         places_.along(places_.of_parent(parent_->indices[corner]),
                                       [&](std::uint32_t number, std::uint32_t step) {
-                                          edge.lower({places_.local(number), step});
+                                          if (step <= static_cast<std::uint32_t>(step_))
+                                              edge.lower({places_.local(number), step, {}});
                                       });
                     }
                 });
@@ -409,11 +423,9 @@ class BoundsMaker {
 
     /// A node of a line is as low as the lower of the edges that meet there.
     void join_lows() {
-        for (EdgeLow& edge : rows_) accumulate(edge.drop);
-        for (EdgeLow& edge : columns_) accumulate(edge.drop);
-        const auto low_at = [&](const EdgeLow& edge, glm::vec2 place, std::size_t step) {
-            if (edge.drop[step] == kLowest) return -kBottomless;
-            return edge.height + glm::dot(edge.slope, place - edge.origin) - edge.drop[step] -
+        const auto low_at = [&](const EdgeLow& edge, glm::vec2 place) {
+            if (edge.drop == kLowest) return -kBottomless;
+            return edge.height + glm::dot(edge.slope, place - edge.origin) - edge.drop -
                    rounding_m_ * (2.0F + std::abs(edge.slope.x) + std::abs(edge.slope.y));
         };
         for (int line = 0; line < kNodes; ++line) {
@@ -421,41 +433,10 @@ class BoundsMaker {
                 const auto before = static_cast<std::size_t>(line * kSide + std::max(at - 1, 0));
                 const auto after = static_cast<std::size_t>(line * kSide + std::min(at, kSide - 1));
                 const std::size_t of_row = node(line, at), of_column = node(at, line);
-                for (std::size_t step = 0; step < row_lows_.size(); ++step) {
-                    row_lows_[step][of_row] = least(low_at(rows_[before], node_place(of_row), step),
-                                                    low_at(rows_[after], node_place(of_row), step));
-                    column_lows_[step][of_column] =
-                        least(low_at(columns_[before], node_place(of_column), step),
-                              low_at(columns_[after], node_place(of_column), step));
-                }
-            }
-        }
-    }
-
-    /// Packs the steps' heights as units above or below the first's, rounded to the safe side.
-    void store_steps() {
-        bounds_.top = tops_.front();
-        bounds_.row_low = row_lows_.front();
-        bounds_.column_low = column_lows_.front();
-        float greatest = 0.0F;
-        for (std::size_t i = 0; i < tops_.back().size(); ++i)
-            greatest = most(greatest, tops_.back()[i] - tops_.front()[i]);
-        for (std::size_t i = 0; i < row_lows_.back().size(); ++i) {
-            greatest = most(greatest, row_lows_.front()[i] - row_lows_.back()[i]);
-            greatest = most(greatest, column_lows_.front()[i] - column_lows_.back()[i]);
-        }
-        bounds_.unit_m = greatest / 254.0F;
-        const float per_unit = greatest > 0.0F ? 254.0F / greatest : 0.0F;
-        const auto units = [&](float height) {
-            return static_cast<std::uint8_t>(std::ceil(height * per_unit));
-        };
-        for (std::size_t step = 1; step < bounds_.steps.size(); ++step) {
-            CellBounds::Step& packed = bounds_.steps[step];
-            for (std::size_t i = 0; i < packed.rise.size(); ++i)
-                packed.rise[i] = units(tops_[step][i] - tops_.front()[i]);
-            for (std::size_t i = 0; i < packed.row_drop.size(); ++i) {
-                packed.row_drop[i] = units(row_lows_.front()[i] - row_lows_[step][i]);
-                packed.column_drop[i] = units(column_lows_.front()[i] - column_lows_[step][i]);
+                step().row_low[of_row] = least(low_at(rows_[before], node_place(of_row)),
+                                               low_at(rows_[after], node_place(of_row)));
+                step().column_low[of_column] = least(low_at(columns_[before], node_place(of_column)),
+                                                     low_at(columns_[after], node_place(of_column)));
             }
         }
     }
@@ -471,8 +452,7 @@ class BoundsMaker {
     std::vector<std::uint16_t> vertices_;                 ///< scratch
     std::array<float, CellBounds::kLineNodes> height_{};  ///< the own posts', at the nodes
     std::array<EdgeLow, kLineEdges> rows_{}, columns_{};  ///< line * kSide + place
-    std::array<std::array<float, CellBounds::kCells + 1>, kSteps> tops_{};
-    std::array<std::array<float, CellBounds::kLineNodes>, kSteps> row_lows_{}, column_lows_{};
+    int step_ = 0;                                        ///< in the making
 };
 
 }  // namespace

@@ -28,13 +28,14 @@ struct Block;
 ///   cell it is of.
 ///
 /// The farther vertices may slide, the looser it gets, so there is a step of bounds for each of the last
-/// levels: step n holds while no level asked for is above level_limit(n). 3.9 kB.
+/// levels: step n holds while no level asked for is above level_limit(n) and the list drawn is of
+/// list_level(n) or a coarser one. 9.5 kB.
 struct CellBounds {
     static constexpr int kSide = 8;           ///< cells, kMeshCells
     static constexpr int kNodes = kSide + 1;  ///< a side
     static constexpr std::size_t kCells = std::size_t{kSide} * kSide;
     static constexpr std::size_t kLineNodes = std::size_t{kNodes} * kNodes;
-    static constexpr int kSteps = 6;
+    static constexpr int kSteps = 4;
     /// Levels above the block's last that the last step allows for: a block is drawn farther out than its
     /// last level asks for, as long as its parent's nearest point is too near for the parent.
     static constexpr int kLevelsBeyond = 2;
@@ -44,21 +45,25 @@ struct CellBounds {
     float radius_m = 0.0F;        ///< of a ball around the centre that holds everything drawn
     float height_range_m = 0.0F;  ///< along the local vertical
 
-    /// Nodes, from the south-west; low heights, by the first step, of the node as a point of the line along
-    /// its row (parallel) and along its column (meridian).
-    std::array<float, kLineNodes> node_x{}, node_y{}, row_low{}, column_low{};
-    /// Tops of the cells, from the south-west, and of the whole block last. An empty cell has west > east.
-    /// The plane's height at x, y, by the first step: top + slope_x * (x - west) + slope_y * (y - south).
-    std::array<float, kCells + 1> west{}, east{}, south{}, north{}, top{}, slope_x{}, slope_y{};
-    /// By how many units a step is higher or lower than the first.
-    float unit_m = 0.0F;
+    /// A block is drawn with a list so many levels below the highest level asked for in it.
+    static constexpr int kLevelsAList = 3;
+
+    /// Nodes, from the south-west.
+    std::array<float, kLineNodes> node_x{}, node_y{};
+    /// Slopes of the tops' planes: of the cells, from the south-west, and of the whole block last.
+    std::array<float, kCells + 1> slope_x{}, slope_y{};
     struct Step {
-        std::array<std::uint8_t, kCells + 1> rise{};
-        std::array<std::uint8_t, kLineNodes> row_drop{}, column_drop{};
+        /// Tops: rectangles, and the planes' heights at their south-west corners. An empty cell has west >
+        /// east.
+        std::array<float, kCells + 1> west{}, east{}, south{}, north{}, top{};
+        /// Heights of a node as a point of the line along its row (parallel) and along its column (meridian).
+        std::array<float, kLineNodes> row_low{}, column_low{};
     };
     std::array<Step, kSteps> steps{};
 
     [[nodiscard]] int level_limit(int step) const { return last_limit - (kSteps - 1 - step); }
+    /// 0, the first list there is, for the first step.
+    [[nodiscard]] int list_level(int step) const { return step == 0 ? 0 : level_limit(step) - kLevelsAList; }
 };
 
 /// Columns: unit vectors east, north and away from the Earth's centre, in ECEF. Undefined on the Earth's

@@ -63,18 +63,16 @@ constexpr float kBehind = 1e9F;
 /// of them.
 void project_tops(const BlockView& view, const CellBounds& bounds, int step, std::size_t first,
                   std::size_t last, ProjectedTops& tops) {
-    const auto& rise = bounds.steps[static_cast<std::size_t>(step)].rise;
+    const CellBounds::Step& of = bounds.steps[static_cast<std::size_t>(step)];
     const glm::vec3 x_axis = view.axes[0], y_axis = view.axes[1], z_axis = view.axes[2], centre = view.centre;
-    const float unit_m = bounds.unit_m, per_radius = view.per_radius, lean_m = view.lean_m;
+    const float per_radius = view.per_radius, lean_m = view.lean_m;
     for (std::size_t i = first; i < last; ++i) {
-        const float top = bounds.top[i] + unit_m * static_cast<float>(rise[i]);
-        const float run_x = bounds.east[i] - bounds.west[i], run_y = bounds.north[i] - bounds.south[i];
+        const float top = of.top[i];
+        const float run_x = of.east[i] - of.west[i], run_y = of.north[i] - of.south[i];
         // The south-west corner, and the way from it to the south-east and to the north-west one.
-        const float right =
-            centre.x + x_axis.x * bounds.west[i] + y_axis.x * bounds.south[i] + z_axis.x * top;
-        const float forward =
-            centre.y + x_axis.y * bounds.west[i] + y_axis.y * bounds.south[i] + z_axis.y * top;
-        const float up = centre.z + x_axis.z * bounds.west[i] + y_axis.z * bounds.south[i] + z_axis.z * top;
+        const float right = centre.x + x_axis.x * of.west[i] + y_axis.x * of.south[i] + z_axis.x * top;
+        const float forward = centre.y + x_axis.y * of.west[i] + y_axis.y * of.south[i] + z_axis.y * top;
+        const float up = centre.z + x_axis.z * of.west[i] + y_axis.z * of.south[i] + z_axis.z * top;
         const float rise_x = bounds.slope_x[i] * run_x, rise_y = bounds.slope_y[i] * run_y;
         const float east_r = x_axis.x * run_x + z_axis.x * rise_x,
                     north_r = y_axis.x * run_y + z_axis.x * rise_y;
@@ -116,16 +114,14 @@ struct ProjectedNodes {
 
 namespace {
 
-/// Points of lines in the block's order of nodes; `drop` in units below `low`.
+/// Points of lines in the block's order of nodes.
 using NodeValues = std::array<float, CellBounds::kLineNodes>;
-void project_lows(const BlockView& view, const CellBounds& bounds, const NodeValues& low,
-                  const std::array<std::uint8_t, CellBounds::kLineNodes>& drop, NodeValues& u, NodeValues& v,
-                  NodeValues& ahead_m) {
+void project_lows(const BlockView& view, const CellBounds& bounds, const NodeValues& low, NodeValues& u,
+                  NodeValues& v, NodeValues& ahead_m) {
     const glm::vec3 x_axis = view.axes[0], y_axis = view.axes[1], z_axis = view.axes[2], centre = view.centre;
-    const float unit_m = bounds.unit_m, per_radius = view.per_radius;
+    const float per_radius = view.per_radius;
     for (std::size_t i = 0; i < CellBounds::kLineNodes; ++i) {
-        const float x = bounds.node_x[i], y = bounds.node_y[i],
-                    z = low[i] - unit_m * static_cast<float>(drop[i]);
+        const float x = bounds.node_x[i], y = bounds.node_y[i], z = low[i];
         const float right = centre.x + x_axis.x * x + y_axis.x * y + z_axis.x * z;
         const float forward = centre.y + x_axis.y * x + y_axis.y * y + z_axis.y * z;
         const float up = centre.z + x_axis.z * x + y_axis.z * y + z_axis.z * z;
@@ -143,9 +139,9 @@ ProjectedNodes project_nodes(const BlockView& view, const CellBounds& bounds, in
     const CellBounds::Step& step = bounds.steps[static_cast<std::size_t>(step_number)];
     ProjectedNodes nodes;
     NodeValues u, v, ahead_m;
-    project_lows(view, bounds, bounds.row_low, step.row_drop, u, v, ahead_m);
+    project_lows(view, bounds, step.row_low, u, v, ahead_m);
     for (std::size_t i = 0; i < CellBounds::kLineNodes; ++i) nodes.rows[i] = {u[i], v[i], ahead_m[i]};
-    project_lows(view, bounds, bounds.column_low, step.column_drop, u, v, ahead_m);
+    project_lows(view, bounds, step.column_low, u, v, ahead_m);
     for (std::size_t line = 0; line < kNodes; ++line) {
         for (std::size_t at = 0; at < kNodes; ++at) {
             const std::size_t i = at * kNodes + line;
@@ -244,20 +240,20 @@ struct HorizonCulling::Frame {
         constexpr double kNears =
             2.0;  // farthest corner of what the near plane cuts off, in a view that has a picture
         const double reach_m = kNears * near_m;
-        const glm::dvec3 away = upright.eye - bounds.centre;
-        if (glm::length(away) > double{bounds.radius_m} * 1.25 + reach_m) return false;
+        const double drawn_off_m = level_error_m(draw.node->block->first_level);
+        if (distance_m(draw.node->bounds, upright.eye) > reach_m + drawn_off_m) return false;
         const auto step = step_of(draw, bounds);
         if (!step) return true;
-        const auto& steps_rise = bounds.steps[static_cast<std::size_t>(*step)].rise;
-        const glm::dvec3 eye = glm::transpose(local_axes(bounds.centre)) * away;
+        const CellBounds::Step& of = bounds.steps[static_cast<std::size_t>(*step)];
+        const glm::dvec3 eye = glm::transpose(local_axes(bounds.centre)) * (upright.eye - bounds.centre);
         for (std::size_t i = 0; i < kCells; ++i) {
-            const double x = std::clamp(eye.x, double{bounds.west[i]}, double{bounds.east[i]});
-            const double y = std::clamp(eye.y, double{bounds.south[i]}, double{bounds.north[i]});
-            if (bounds.west[i] > bounds.east[i] || std::hypot(eye.x - x, eye.y - y) > reach_m) continue;
+            if (of.west[i] > of.east[i]) continue;
+            const double x = std::clamp(eye.x, double{of.west[i]}, double{of.east[i]});
+            const double y = std::clamp(eye.y, double{of.south[i]}, double{of.north[i]});
+            if (std::hypot(eye.x - x, eye.y - y) > reach_m) continue;
             const double slope_x = double{bounds.slope_x[i]}, slope_y = double{bounds.slope_y[i]};
-            const double rise = double{bounds.unit_m} * static_cast<double>(steps_rise[i]);
-            const double top = double{bounds.top[i]} + rise + slope_x * (x - double{bounds.west[i]}) +
-                               slope_y * (y - double{bounds.south[i]});
+            const double top =
+                double{of.top[i]} + slope_x * (x - double{of.west[i]}) + slope_y * (y - double{of.south[i]});
             if (eye.z - top < reach_m * (1.0 + std::abs(slope_x) + std::abs(slope_y))) return true;
         }
         return false;

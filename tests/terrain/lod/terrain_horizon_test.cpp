@@ -121,6 +121,9 @@ struct Field {
             leaf.tile = child(tile, i);
             leaf.parent = &node;
             leaf.block = block(leaf.tile, shape.first_level, node.block.get());
+            const auto& heights_m = leaf.block->data.heights_m;
+            const auto [low, high] = std::minmax_element(heights_m.begin(), heights_m.end());
+            leaf.bounds = tile_bounds(leaf.tile, *low, *high);
         }
     }
 
