@@ -26,20 +26,23 @@ static_assert(2 * kUseFrames < kKeepFrames);
 constexpr std::uint8_t kAllSides = 0xf;
 constexpr std::size_t kLevels = kLastLevel + 1;
 
-/// Distance at which level_at() is so many levels, with the margin that the shader's rounding needs.
-double distance_of_level_m(double level, double scale) {
-    return std::exp2((level + kLevelMargin) / 2.0) / scale;
-}
-
 /// Rows: levels 0..63, then "always" and "never" (NestedLod::kAlways, kNever).
 using Distances = std::array<double, kLevels + 2>;
 
-Distances distances_m(double scale, double always, double never) {
+/// Distance at which level_at() is so many levels, with the margin that the shader's rounding needs; scale 1.
+Distances unit_distances_m() {
     Distances result{};
     for (std::size_t level = 0; level < kLevels; ++level)
-        result[level] = distance_of_level_m(static_cast<double>(level), scale);
-    result[kLevels] = always;
-    result[kLevels + 1] = never;
+        result[level] = std::exp2((static_cast<double>(level) + kLevelMargin) / 2.0);
+    result[kLevels] = -kInfinity;
+    result[kLevels + 1] = kInfinity;
+    return result;
+}
+
+Distances distances_m(double scale) {
+    static const Distances unit_m = unit_distances_m();
+    Distances result = unit_m;
+    for (double& distance_m : result) distance_m /= scale;
     return result;
 }
 
@@ -100,8 +103,9 @@ struct NestedLod::Frame {
         return planes;
     }
 
-    [[nodiscard]] bool behind_horizon(const Quad& quad, std::size_t lane, double middle_m) const {
-        if (middle_m - quad.radius_m[lane] < nearest_hidden_m) return false;
+    [[nodiscard]] bool behind_horizon(const Quad& quad, std::size_t lane, double middle_m2) const {
+        const double surely_seen_m = nearest_hidden_m + quad.radius_m[lane];
+        if (middle_m2 < surely_seen_m * surely_seen_m) return false;
         return horizon.hides(quad.nodes[lane].bounds);
     }
 };
@@ -124,8 +128,8 @@ const Selection& NestedLod::select(const LodView& view, TileTree& tree, std::uin
                       .horizon = {view.eye, lowest_m},
                       .nearest_hidden_m = nearest_hidden_m(view.eye, lowest_m),
                       .scale = scale,
-                      .nearer_m = distances_m(scale * share, -kInfinity, kInfinity),
-                      .farther_m = distances_m(scale, -kInfinity, kInfinity),
+                      .nearer_m = distances_m(scale * share),
+                      .farther_m = distances_m(scale),
                       .metres_a_texel = view.kappa_px / kMostPixelsATexel,
                       .metres_a_texel_slack = view.kappa_px / (kMostPixelsATexel * share)};
     selection_.draws.clear();
@@ -200,7 +204,7 @@ void NestedLod::look_into(const Frame& frame, const Pending& pending) {
         const auto planes = frame.sides_cutting(quad, lane, middle, pending.planes);
         if (!planes) continue;
         const double distance2 = glm::dot(middle, middle);
-        if (frame.behind_horizon(quad, lane, std::sqrt(distance2))) continue;
+        if (frame.behind_horizon(quad, lane, distance2)) continue;
         if (stands(quad, lane, frame)) {
             ++selection_.blocks_reused;
         } else {
