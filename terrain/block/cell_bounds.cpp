@@ -156,11 +156,33 @@ struct EdgeLow {
     float height = 0.0F;
     float drop = kLowest;  ///< kLowest: nothing is drawn over the edge
 
-    void lower(const Stop& stop) {
-        const float below =
-            height + slope.x * (stop.local.x - origin.x) + slope.y * (stop.local.y - origin.y) - stop.local.z;
-        drop = most(drop, below);
+    /// Unit normal of the plane through the edge and the Earth's centre, and a point of the plane.
+    glm::vec3 normal{0.0F};
+    glm::vec3 on_plane{0.0F};
+
+    /// Lowers the edge under what lies over it of the convex hull of some stops: its section with the plane
+    /// is the hull of where the plane cuts the lines from stop to stop.
+    void lower(std::span<const Stop> stops, std::vector<glm::vec2>& scratch) {
+        scratch.clear();
+        for (const Stop& stop : stops) {
+            const float below = height + slope.x * (stop.local.x - origin.x) +
+                                slope.y * (stop.local.y - origin.y) - stop.local.z;
+            scratch.emplace_back(glm::dot(normal, stop.local - on_plane), below);
+        }
+        for (std::size_t i = 0; i < scratch.size(); ++i) {
+            for (std::size_t j = i; j < scratch.size(); ++j) {
+                const glm::vec2 &p = scratch[i], &q = scratch[j];
+                if (std::abs(p.x) <= margin_m) drop = most(drop, p.y);
+                if (std::abs(q.x) <= margin_m) drop = most(drop, q.y);
+                if (p.x * q.x >= 0.0F) continue;
+                // Within the margin on both sides of the plane.
+                const float a = p.x / (p.x - q.x),
+                            spread = std::abs(q.y - p.y) * margin_m / std::abs(p.x - q.x);
+                drop = most(drop, std::min(p.y + a * (q.y - p.y) + spread, most(p.y, q.y)));
+            }
+        }
     }
+    float margin_m = 0.0F;
 };
 
 class BoundsMaker {
@@ -313,13 +335,13 @@ class BoundsMaker {
         const float across = 0.5F * (cell_slope(std::max(row - 1, 0), column).y +
                                      cell_slope(std::min(row, kSide - 1), column).y);
         const std::size_t from = node(row, column);
-        return {node_place(from), {rise(from, node(row, column + 1), 0), across}, height_[from]};
+        return edge(from, node(row, column + 1), {rise(from, node(row, column + 1), 0), across});
     }
     [[nodiscard]] EdgeLow column_edge(int row, int column) const {
         const float across = 0.5F * (cell_slope(row, std::max(column - 1, 0)).x +
                                      cell_slope(row, std::min(column, kSide - 1)).x);
         const std::size_t from = node(row, column);
-        return {node_place(from), {across, rise(from, node(row + 1, column), 1)}, height_[from]};
+        return edge(from, node(row + 1, column), {across, rise(from, node(row + 1, column), 1)});
     }
 
     /// How far, in cells, a triangle's ground may reach beyond the box of its corners' places: great circles
@@ -342,6 +364,17 @@ class BoundsMaker {
         }
     }
 
+    [[nodiscard]] EdgeLow edge(std::size_t from, std::size_t to, glm::vec2 slope) const {
+        EdgeLow result{node_place(from), slope, height_[from]};
+        const glm::vec3 a{result.origin, result.height}, b{node_place(to), height_[to]};
+        const glm::dvec3 earth_centre{0.0, 0.0, -glm::length(bounds_.centre)};
+        result.normal =
+            glm::vec3{glm::normalize(glm::cross(glm::dvec3{a} - earth_centre, glm::dvec3{b} - earth_centre))};
+        result.on_plane = a;
+        result.margin_m = rounding_m_;
+        return result;
+    }
+
     void set_lows() {
         for (EdgeLow& edge : rows_) edge.drop = kLowest;
         for (EdgeLow& edge : columns_) edge.drop = kLowest;
@@ -351,11 +384,13 @@ class BoundsMaker {
             Box box;
             for (std::uint32_t corner = i; corner < i + 3; ++corner) add_way(box, block_.indices[corner]);
             lower_under(box, reach_cells, [&](EdgeLow& edge) {
+                way_.clear();
                 for (std::uint32_t corner = i; corner < i + 3; ++corner) {
                     for (const Stop& stop : stops_of(block_.indices[corner])) {
-                        if (stop.step <= static_cast<std::uint32_t>(step_)) edge.lower(stop);
+                        if (stop.step <= static_cast<std::uint32_t>(step_)) way_.push_back(stop);
                     }
                 }
+                edge.lower(way_, scratch_);
             });
         }
         if (parent_ != nullptr && bounds_.level_limit(step_) > int{block_.last_level})
@@ -384,13 +419,15 @@ class BoundsMaker {
                 for (std::uint32_t corner = i; corner < i + 3; ++corner)
                     box.add(boxes[parent_->indices[corner]]);
                 lower_under(box, reach_cells, [&](EdgeLow& edge) {
+                    way_.clear();
                     for (std::uint32_t corner = i; corner < i + 3; ++corner) {
                         places_.along(places_.of_parent(parent_->indices[corner]),
                                       [&](std::uint32_t number, std::uint32_t step) {
-                                          if (step <= static_cast<std::uint32_t>(step_))
-                                              edge.lower({places_.local(number), step, {}});
+                                          if (step > static_cast<std::uint32_t>(step_)) return;
+                                          way_.push_back({places_.local(number), step, {}});
                                       });
                     }
+                    edge.lower(way_, scratch_);
                 });
             }
         }
@@ -452,6 +489,8 @@ class BoundsMaker {
     std::vector<std::uint16_t> vertices_;                 ///< scratch
     std::array<float, CellBounds::kLineNodes> height_{};  ///< the own posts', at the nodes
     std::array<EdgeLow, kLineEdges> rows_{}, columns_{};  ///< line * kSide + place
+    std::vector<Stop> way_;                               ///< scratch
+    std::vector<glm::vec2> scratch_;                      ///< scratch
     int step_ = 0;                                        ///< in the making
 };
 

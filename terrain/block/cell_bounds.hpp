@@ -46,7 +46,7 @@ struct CellBounds {
     float height_range_m = 0.0F;  ///< along the local vertical
 
     /// A block is drawn with a list so many levels below the highest level asked for in it.
-    static constexpr int kLevelsAList = 3;
+    static constexpr int kLevelsAList = 2;
 
     /// Nodes, from the south-west.
     std::array<float, kLineNodes> node_x{}, node_y{};
