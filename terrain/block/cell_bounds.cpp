@@ -164,11 +164,14 @@ struct EdgeLow {
     /// is the hull of where the plane cuts the lines from stop to stop.
     void lower(std::span<const Stop> stops, std::vector<glm::vec2>& scratch) {
         scratch.clear();
+        float most_below = kLowest;
         for (const Stop& stop : stops) {
             const float below = height + slope.x * (stop.local.x - origin.x) +
                                 slope.y * (stop.local.y - origin.y) - stop.local.z;
             scratch.emplace_back(glm::dot(normal, stop.local - on_plane), below);
+            most_below = most(most_below, below);
         }
+        if (most_below <= drop) return;
         for (std::size_t i = 0; i < scratch.size(); ++i) {
             for (std::size_t j = i; j < scratch.size(); ++j) {
                 const glm::vec2 &p = scratch[i], &q = scratch[j];

@@ -29,7 +29,7 @@ struct Block;
 ///
 /// The farther vertices may slide, the looser it gets, so there is a step of bounds for each of the last
 /// levels: step n holds while no level asked for is above level_limit(n) and the list drawn is of
-/// list_level(n) or a coarser one. 9.5 kB.
+/// list_level(n) or a coarser one. 9.0 kB.
 struct CellBounds {
     static constexpr int kSide = 8;           ///< cells, kMeshCells
     static constexpr int kNodes = kSide + 1;  ///< a side
@@ -71,7 +71,7 @@ struct CellBounds {
 [[nodiscard]] glm::dmat3 local_axes(const Ecef& centre);
 
 /// `parent` is the parent's block, nullptr for a root. Nothing is known of tiles so large that
-/// the difference between their edges and great circles counts, depths below 4. About 0.1 ms.
+/// the difference between their edges and great circles counts, depths below 4. Up to 2 ms.
 [[nodiscard]] CellBounds cell_bounds(const Block& block, const Block* parent);
 
 }  // namespace eyepoint::terrain
