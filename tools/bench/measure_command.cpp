@@ -143,6 +143,8 @@ void add_measuring(CLI::App& command, MeasureRequest& request) {
     command.add_option("--morph", request.morph, "vertices slide between levels, or jump")
         ->check(CLI::IsMember({"on", "off"}))
         ->capture_default_str();
+    command.add_flag("--cull", request.flight.cull,
+                     "nested alone: leave out what nearer terrain hides; posts there count as uncovered");
     command.add_option("--every", request.options.every, "measure every so-manieth frame")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();

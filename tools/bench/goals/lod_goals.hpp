@@ -18,6 +18,7 @@ namespace eyepoint::tools {
 struct GoalPaths {
     std::vector<terrain::LodView> cruise;
     std::vector<terrain::LodView> sweep;
+    std::vector<terrain::LodView> low_cruise;  ///< cruise 700 m lower: 300 m above smoothed ground
 };
 
 struct GoalFigures {
@@ -39,9 +40,11 @@ class LodGoals {
   private:
     using Done = tl::expected<void, std::string>;
     [[nodiscard]] Done triangles();
+    [[nodiscard]] Done culling();
     [[nodiscard]] Done post_error();
     [[nodiscard]] Done pops();
     [[nodiscard]] Done selection();
+    [[nodiscard]] Done blocks();
     [[nodiscard]] tl::expected<FlightFigures, std::string> fly(std::vector<terrain::LodView> views,
                                                                double tau_px, double slack_share,
                                                                const MeasureOptions& options);

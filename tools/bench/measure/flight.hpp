@@ -15,6 +15,7 @@ namespace eyepoint::tools {
 
 struct FlightOptions {
     std::string lod_method = "regular";
+    bool cull = false;  ///< nested alone: leave out what nearer terrain hides; the drawn mesh has gaps there
     unsigned loader_threads = 1;
     std::uint64_t block_cache_bytes =
         8ULL << 30;  ///< so much that a path flown twice loads nothing the second time
