@@ -3,6 +3,7 @@
 #include "terrain/block/block.hpp"
 #include "terrain/block/block_vertex.hpp"
 #include "terrain/database/mesh_places.hpp"
+#include "terrain/database/whole_grid.hpp"
 
 namespace eyepoint::terrain {
 
@@ -86,24 +87,12 @@ void set_motion(Block& block, const NestedMesh& mesh, std::span<const Place> pla
 using Triangle = std::array<std::uint16_t, 3>;
 
 std::vector<Triangle> first_triangles(const NestedMesh& mesh) {
+    const std::span<const std::uint16_t> indices =
+        mesh.whole_grid ? whole_grid_triangles() : std::span<const std::uint16_t>{mesh.triangles};
     std::vector<Triangle> triangles;
-    if (!mesh.whole_grid) {
-        triangles.reserve(mesh.triangles.size() / 3);
-        for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3)
-            triangles.push_back({mesh.triangles[i], mesh.triangles[i + 1], mesh.triangles[i + 2]});
-        return triangles;
-    }
-    triangles.reserve(std::size_t{2} * kBlockCells * kBlockCells);
-    for (int row = 0; row < kBlockCells; ++row) {
-        for (int column = 0; column < kBlockCells; ++column) {
-            const auto sw = static_cast<std::uint16_t>(row * kBlockPosts + column);
-            const auto se = static_cast<std::uint16_t>(sw + 1),
-                       nw = static_cast<std::uint16_t>(sw + kBlockPosts),
-                       ne = static_cast<std::uint16_t>(sw + kBlockPosts + 1);
-            triangles.push_back({sw, se, ne});
-            triangles.push_back({sw, ne, nw});
-        }
-    }
+    triangles.reserve(indices.size() / 3);
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
+        triangles.push_back({indices[i], indices[i + 1], indices[i + 2]});
     return triangles;
 }
 

@@ -21,7 +21,7 @@ namespace eyepoint::terrain {
                                                               std::uint8_t last_level);
 
 /// Whether the triangles of a mesh of sound structure, seen from above, cover the tile once: all
-/// counterclockwise, every inner edge between two of them, every other edge on the tile's border, and their
+/// counterclockwise or flat, every inner edge between two of them, every other edge on the tile's border, and their
 /// areas add up. On failure: the fault.
 [[nodiscard]] tl::expected<void, std::string> check_cover(const NestedMesh& mesh);
 

@@ -13,4 +13,5 @@ target_sources(eyepoint_terrain PRIVATE
     database/range_coder.cpp
     database/shard.cpp
     database/virtual_tile.cpp
+    database/whole_grid.cpp
 )

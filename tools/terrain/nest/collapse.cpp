@@ -68,11 +68,11 @@ class Collapse {
     }
 
     CollapseResult run() {
-        level_ = request_.first_level;
+        edges_done_ = level_ = request_.first_level;
         collapse_edges();
         for (std::size_t v = 0; v < around_.size(); ++v) weigh(static_cast<Vertex>(v));
         while (level_ < request_.last_level) {
-            ++level_;
+            edges_done_ = ++level_;
             for (const Vertex touched : collapse_edges()) weigh(touched);
             collapse_inner(allowed_m(level_));
         }
@@ -89,6 +89,8 @@ class Collapse {
     }
 
   private:
+    static constexpr Vertex kNone = 0xffff;
+    static constexpr Vertex kAll = 0xfffe;
     struct LaterPlace {
         int level;
         Placed place;
@@ -150,18 +152,74 @@ class Collapse {
                 const auto neighbours = ring(v);
                 const LaterPlace& next = later_places_[v].front();
                 const auto target = std::find_if(neighbours.begin(), neighbours.end(), [&](Vertex w) {
-                    return same_place(places_[w], next.place);
+                    return same_place(places_[w], next.place) && shared_triangles(v, w) == 1;
                 });
                 if (target == neighbours.end()) continue;
                 touched.insert(touched.end(), neighbours.begin(), neighbours.end());
+                clear_way(v, *target, touched);
                 apply(v, *target, next.level);
                 progress = true;
                 break;  // those of lower levels first
             }
         }
+        // What went to a vertex that went at the same level goes to where that went.
+        for (std::size_t v = 0; v < result_.target.size(); ++v) {
+            if (result_.gone_level[v] == NestedMesh::kStays) continue;
+            Vertex& target = result_.target[v];
+            while (result_.gone_level[target] <= result_.gone_level[v]) target = result_.target[target];
+        }
         std::sort(touched.begin(), touched.end());
         touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
         return touched;
+    }
+
+    /// One for neighbours on the mesh's border.
+    [[nodiscard]] std::ptrdiff_t shared_triangles(Vertex a, Vertex b) const {
+        return std::count_if(around_[a].begin(), around_[a].end(), [&](std::uint32_t t) {
+            return std::find(triangles_[t].begin(), triangles_[t].end(), b) != triangles_[t].end();
+        });
+    }
+
+    /// Before an edge vertex goes: inner vertices whose triangles that would fold go first. Triangles made
+    /// here never need it (outlasts_edges); those of the first mesh beside a corner of a tile may.
+    void clear_way(Vertex v, Vertex target, std::vector<Vertex>& touched) {
+        edges_done_ = level_ - 1;
+        for (bool folds = true; folds;) {
+            folds = false;
+            for (const Vertex inner : in_the_way(v, target)) {
+                const auto neighbours = ring(inner);
+                const Vertex best = way_out(inner, v);
+                if (best == inner) continue;
+                touched.insert(touched.end(), neighbours.begin(), neighbours.end());
+                apply(inner, best, level_);
+                folds = true;
+                break;
+            }
+        }
+        edges_done_ = level_;
+    }
+
+    /// A target for an inner vertex in the way of an edge vertex, whatever the error: one that leaves
+    /// triangles that outlast the edges, or some that do not at that edge vertex alone, or any.
+    [[nodiscard]] Vertex way_out(Vertex inner, Vertex edge) const {
+        Vertex best = best_target(inner, kNever, kNone).target;
+        if (best == inner) best = best_target(inner, kNever, edge).target;
+        if (best == inner) best = best_target(inner, kNever, kAll).target;
+        return best;
+    }
+
+    [[nodiscard]] std::vector<Vertex> in_the_way(Vertex v, Vertex target) const {
+        std::vector<Vertex> inner;
+        for (const std::uint32_t t : around_[v]) {
+            std::array<const Placed*, 3> corners{};
+            for (std::size_t i = 0; i < 3; ++i)
+                corners[i] = &here(triangles_[t][i] == v ? target : triangles_[t][i]);
+            if (is_empty(corners) || counterclockwise(*corners[0], *corners[1], *corners[2])) continue;
+            for (const Vertex corner : triangles_[t]) {
+                if (!request_.fates[corner].on_edge) inner.push_back(corner);
+            }
+        }
+        return inner;
     }
 
     [[nodiscard]] std::size_t vertices_left() const {
@@ -192,20 +250,28 @@ class Collapse {
     void weigh(Vertex v, float most_m) {
         if (gone(v) || request_.fates[v].on_edge) return;
         ++version_[v];
+        if (const Candidate best = best_target(v, most_m, kNone); best.target != v) queue_.push(best);
+    }
+
+    /// Itself when there is none within the error. New triangles at `excepted` need not outlast the edges'
+    /// collapses.
+    [[nodiscard]] Candidate best_target(Vertex v, float most_m, Vertex excepted) const {
         Candidate best{most_m, v, v, version_[v]};
         for (const Vertex target : ring(v)) {
-            const float error_m = error_after(v, target, best.error_m);
-            if (error_m < best.error_m || (best.target == v && error_m <= best.error_m)) {
+            const auto& later = later_places_[target];
+            if (!later.empty() && later.front().level <= edges_done_) continue;
+            const float error_m = error_after(v, target, best.error_m, excepted);
+            if (error_m < best.error_m || (best.target == v && error_m <= best.error_m && error_m < kNever)) {
                 best.error_m = error_m;
                 best.target = target;
             }
         }
-        if (best.target != v) queue_.push(best);
+        return best;
     }
 
     /// Greatest error of the triangles that a collapse would leave around the vertex; kNever when it must not
     /// be.
-    [[nodiscard]] float error_after(Vertex v, Vertex target, float enough_m) const {
+    [[nodiscard]] float error_after(Vertex v, Vertex target, float enough_m, Vertex excepted) const {
         float greatest_m = 0.0F;
         std::array<std::array<const Placed*, 3>, kMostAround> left{};
         std::size_t count = 0;
@@ -214,8 +280,8 @@ class Collapse {
             if (std::find(triangle.begin(), triangle.end(), target) != triangle.end()) continue;
             if (count == kMostAround) return kNever;
             auto& corners = left[count++];
-            for (std::size_t i = 0; i < 3; ++i)
-                corners[i] = &places_[triangle[i] == v ? target : triangle[i]];
+            for (std::size_t i = 0; i < 3; ++i) corners[i] = &here(triangle[i] == v ? target : triangle[i]);
+            if (is_empty(corners)) continue;
             if (!counterclockwise(*corners[0], *corners[1], *corners[2])) return kNever;
         }
         for (std::size_t i = 0; i < count; ++i) {
@@ -229,14 +295,16 @@ class Collapse {
             Triangle triangle = triangles_[t];
             if (std::find(triangle.begin(), triangle.end(), target) != triangle.end()) continue;
             std::replace(triangle.begin(), triangle.end(), v, target);
-            if (!outlasts_edges(triangle)) return kNever;
+            const bool is_excepted =
+                excepted == kAll || std::find(triangle.begin(), triangle.end(), excepted) != triangle.end();
+            if (!is_excepted && !outlasts_edges(triangle)) return kNever;
         }
         return greatest_m;
     }
 
     /// Whether a triangle stays unfolded and within its level's error whenever the edges' vertices go on.
     [[nodiscard]] bool outlasts_edges(const Triangle& triangle) const {
-        int level = level_;
+        int level = edges_done_;
         while (true) {
             int next = std::numeric_limits<int>::max();
             for (const Vertex corner : triangle) {
@@ -260,7 +328,7 @@ class Collapse {
     /// Where a vertex that is still in the mesh is at this level: only corners of the tile may have slid
     /// away.
     [[nodiscard]] const Placed& here(Vertex v) const {
-        return is_corner(v) ? at_level(v, level_) : places_[v];
+        return is_corner(v) ? at_level(v, edges_done_) : places_[v];
     }
 
     [[nodiscard]] bool is_corner(Vertex v) const {
@@ -303,7 +371,7 @@ class Collapse {
     void apply(Vertex v, Vertex target, int level) {
         result_.gone_level[v] = static_cast<std::uint8_t>(level);
         result_.target[v] = target;
-        used_as_target_[target] = level_;
+        used_as_target_[target] = level;
         for (const std::uint32_t t : around_[v]) {
             Triangle& triangle = triangles_[t];
             if (std::find(triangle.begin(), triangle.end(), target) != triangle.end()) {
@@ -324,6 +392,7 @@ class Collapse {
     const CollapseRequest& request_;
     const SampledSurface& surface_;
     int level_ = 0;
+    int edges_done_ = 0;  ///< the level that the edges' vertices have been taken to
     std::vector<Triangle> triangles_;
     std::vector<bool> dead_;
     std::vector<std::vector<std::uint32_t>> around_;  ///< triangles, by vertex

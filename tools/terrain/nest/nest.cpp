@@ -11,6 +11,7 @@
 #include <tbb/parallel_for.h>
 
 #include "terrain/block/block.hpp"
+#include "terrain/database/whole_grid.hpp"
 #include "terrain/lod/error_level.hpp"
 #include "tools/terrain/nest/collapse.hpp"
 #include "tools/terrain/nest/edge_lines.hpp"
@@ -34,17 +35,13 @@ struct Below {
 
 TriangleMesh whole_grid(const BlockData& block) {
     TriangleMesh mesh;
-    const auto post = [](int row, int column) {
-        return static_cast<std::uint16_t>(row * kBlockPosts + column);
-    };
     for (int row = 0; row < kBlockPosts; ++row) {
-        for (int column = 0; column < kBlockPosts; ++column) {
+        for (int column = 0; column < kBlockPosts; ++column)
             mesh.vertices.push_back({column * kPostSpacing, row * kPostSpacing, block.height_m(row, column)});
-            if (row == kBlockCells || column == kBlockCells) continue;
-            mesh.triangles.push_back({post(row, column), post(row, column + 1), post(row + 1, column + 1)});
-            mesh.triangles.push_back({post(row, column), post(row + 1, column + 1), post(row + 1, column)});
-        }
     }
+    const auto triangles = whole_grid_triangles();
+    for (std::size_t i = 0; i < triangles.size(); i += 3)
+        mesh.triangles.push_back({triangles[i], triangles[i + 1], triangles[i + 2]});
     return mesh;
 }
 
