@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "ig/lod_view.hpp"
+#include "ig/render/floor_pass.hpp"
 #include "ig/render/frame_uniforms.hpp"
 #include "ig/render/resolve_pass.hpp"
 #include "ig/render/shading_trial.hpp"
@@ -32,13 +33,14 @@ double thread_cpu_ms() {
 class TerrainScene final : public Scene {
   public:
     TerrainScene(std::unique_ptr<terrain::Pager> pager, std::unique_ptr<terrain::LodMethod> method,
-                 TerrainPass terrain, ResolvePass resolve, SkyPass sky, SceneOptions options)
+                 TerrainPass terrain, ResolvePass resolve, FloorPass floor, SkyPass sky, SceneOptions options)
         : options_(std::move(options)),
           shading_(options_.shading),
           pager_(std::move(pager)),
           method_(std::move(method)),
           terrain_(std::move(terrain)),
           resolve_(std::move(resolve)),
+          floor_(std::move(floor)),
           sky_(std::move(sky)) {
         glNamedBufferStorage(uniforms_.name(), sizeof(FrameUniforms), nullptr, GL_DYNAMIC_STORAGE_BIT);
     }
@@ -65,10 +67,10 @@ class TerrainScene final : public Scene {
     TerrainPass terrain_;
     SurfaceBuffer surface_;
     ResolvePass resolve_;
+    FloorPass floor_;
     SkyPass sky_;
     GlBuffer uniforms_;
     std::uint64_t frame_ = 0;
-    bool have_surface_ = false;
 };
 
 /// Chooses what to draw from the blocks there are and wishes for the missing ones.
@@ -102,7 +104,6 @@ bool TerrainScene::raster_surface(const View& view) {
     if (!surface_.begin(view.width_px, view.height_px)) return false;
     terrain_.draw_surface();
     surface_.end();
-    have_surface_ = true;
     return true;
 }
 
@@ -160,12 +161,8 @@ FrameStatistics TerrainScene::draw(const View& view) {
 
 void TerrainScene::draw_floor(const View& view) {
     begin(view);
-    if (!have_surface_) {
-        (void)raster_surface(view);
-        begin(view);
-    }
     terrain_.draw_depth();
-    resolve_.draw(surface_, terrain_.list(), terrain_.noise());
+    floor_.draw(terrain_.list(), terrain_.noise());
     if (!options_.sentinel) sky_.draw();
 }
 
@@ -192,6 +189,8 @@ tl::expected<std::unique_ptr<Scene>, std::string> Scene::create(
     if (!terrain) return tl::unexpected(terrain.error());
     auto resolve = ResolvePass::create();
     if (!resolve) return tl::unexpected(resolve.error());
+    auto floor = FloorPass::create();
+    if (!floor) return tl::unexpected(floor.error());
     auto sky = SkyPass::create();
     if (!sky) return tl::unexpected(sky.error());
     auto pager = terrain::Pager::create(std::move(database), {.threads = options.loader_threads,
@@ -199,7 +198,7 @@ tl::expected<std::unique_ptr<Scene>, std::string> Scene::create(
                                                               .cache_bytes = options.block_cache_bytes});
     if (!pager) return tl::unexpected(pager.error());
     return std::make_unique<TerrainScene>(std::move(*pager), std::move(method), std::move(*terrain),
-                                          std::move(*resolve), std::move(*sky), options);
+                                          std::move(*resolve), std::move(*floor), std::move(*sky), options);
 }
 
 }  // namespace eyepoint::ig

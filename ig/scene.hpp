@@ -50,8 +50,8 @@ class Scene {
     /// first frame is drawn a few times more, to choose it.
     virtual FrameStatistics draw(const View& view) = 0;
     /// What any renderer of the same mesh must do at least, to measure draw() against: the last draw()'s
-    /// triangles with depth alone, then the terrain's shader and the sky once a pixel. The picture means
-    /// nothing: what is shaded is the surface of the last deferred frame, or of the first call's.
+    /// triangles with depth alone, then the terrain's shader and the sky once a pixel. Not a picture of the
+    /// terrain: its depth, but a plain's shading.
     virtual void draw_floor(const View& view) = 0;
     /// From the next frame on.
     virtual void set_show(Show show) = 0;

@@ -9,6 +9,7 @@ target_sources(eyepoint_ig PRIVATE
     ${EYEPOINT_SHADER_TEXT}
     render/block_store.cpp
     render/draw_list.cpp
+    render/floor_pass.cpp
     render/frame_uniforms.cpp
     render/image_store.cpp
     render/index_store.cpp

@@ -11,6 +11,7 @@
 #include "ig/render/block_store.hpp"
 #include "ig/render/gl_objects.hpp"
 #include "ig/render/image_store.hpp"
+#include "ig/render/program.hpp"
 #include "terrain/lod/lod_method.hpp"
 
 namespace eyepoint::ig {
@@ -26,11 +27,6 @@ struct DrawCommands {
     void draw() const;
     [[nodiscard]] bool empty() const { return counts.empty(); }
 };
-
-/// What a block's shading needs; sets of them are sums.
-inline constexpr std::size_t kWaterFeature = 1;
-inline constexpr std::size_t kImageFeature = 2;
-inline constexpr std::size_t kFeatureSets = 4;
 
 class DrawList {
   public:

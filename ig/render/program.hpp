@@ -1,6 +1,7 @@
 /// Shader programs from the GLSL files beside this one, which are compiled into the program's binary.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +22,15 @@ struct ProgramSource {
     std::vector<std::string_view> fragment_files;
     std::vector<std::string_view> defines;
 };
+
+/// What a block's shading needs beside ground; sets of them are sums.
+inline constexpr std::size_t kWaterFeature = 1;
+inline constexpr std::size_t kImageFeature = 2;
+inline constexpr std::size_t kFeatureSets = 4;
+[[nodiscard]] std::vector<std::string_view> feature_defines(std::size_t set);
+
+/// The terrain's fragment shader, run with the triangles.
+[[nodiscard]] std::vector<std::string_view> ground_files();
 
 /// A linked program. On failure: the driver's message with the names of the files.
 [[nodiscard]] tl::expected<GlProgram, std::string> link_program(const ProgramSource& source);

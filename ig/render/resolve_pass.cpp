@@ -7,13 +7,10 @@ namespace eyepoint::ig {
 tl::expected<ResolvePass, std::string> ResolvePass::create() {
     std::vector<GlProgram> programs;
     for (std::size_t set = 0; set < kFeatureSets; ++set) {
-        ProgramSource source{{"frame.glsl", "sky.vert.glsl"},
-                             {"frame.glsl", "tile.glsl", "chapman.glsl", "atmosphere.glsl", "ground.glsl",
-                              "surface.glsl", "resolve.frag.glsl"},
-                             {}};
-        if ((set & kWaterFeature) != 0) source.defines.emplace_back("WATER");
-        if ((set & kImageFeature) != 0) source.defines.emplace_back("IMAGES");
-        auto program = link_program(source);
+        auto program = link_program({{"frame.glsl", "sky.vert.glsl"},
+                                     {"frame.glsl", "tile.glsl", "chapman.glsl", "atmosphere.glsl",
+                                      "ground.glsl", "surface.glsl", "resolve.frag.glsl"},
+                                     feature_defines(set)});
         if (!program) return tl::unexpected(program.error());
         programs.push_back(std::move(*program));
     }

@@ -31,19 +31,12 @@ ProgramSource source(bool nested, Files fragment_files, Files defines) {
     return {std::move(vertex), std::move(fragment_files), std::move(defines)};
 }
 
-Files features(std::size_t set) {
-    Files defines;
-    if ((set & kWaterFeature) != 0) defines.emplace_back("WATER");
-    if ((set & kImageFeature) != 0) defines.emplace_back("IMAGES");
-    return defines;
-}
-
-/// Fully saturated, brightness 0..1; the hue turns once over 0..1.
+/// Brightness 0..1; the hue turns once over 0..1.
 glm::vec4 painted(double hue, double brightness) {
     const auto channel = [&](double shift) {
         const double turn = hue + shift - std::floor(hue + shift);
         return static_cast<float>(brightness *
-                                  (0.12 + 0.88 * std::clamp(std::abs(turn * 6.0 - 3.0) - 1.0, 0.0, 1.0)));
+                                  (0.30 + 0.70 * std::clamp(std::abs(turn * 6.0 - 3.0) - 1.0, 0.0, 1.0)));
     };
     return {channel(0.0), channel(2.0 / 3.0), channel(1.0 / 3.0), 0.6F};
 }
@@ -60,10 +53,7 @@ glm::vec4 colour_of(const terrain::BlockDraw& draw) {
 tl::expected<TerrainPass::Programs, std::string> TerrainPass::link(bool nested) {
     Programs programs;
     for (std::size_t set = 0; set < kFeatureSets; ++set) {
-        auto program = link_program(source(nested,
-                                           {"frame.glsl", "chapman.glsl", "atmosphere.glsl", "tile.glsl",
-                                            "ground.glsl", "terrain.frag.glsl"},
-                                           features(set)));
+        auto program = link_program(source(nested, ground_files(), feature_defines(set)));
         if (!program) return tl::unexpected(program.error());
         programs.shaded.push_back(std::move(*program));
     }

@@ -26,7 +26,8 @@ TEST(CommandLine, FlagsBecomeSettings) {
         settings_of({"--terrain", "world.db", "--headless", "--video",  "a.mp4", "--listen",
                      "127.0.0.1", "--port",   "6001",       "--rate",   "30",    "--size",
                      "640x480",   "--fov",    "55.5",       "--frames", "12",    "--end-after-silence",
-                     "2.5",       "--record", "r.jsonl",    "--tau",    "3"});
+                     "2.5",       "--record", "r.jsonl",    "--tau",    "3",     "--show",
+                     "levels"});
     EXPECT_EQ(settings.terrain.database, "world.db");
     EXPECT_EQ(settings.output.kind, config::OutputKind::Video);
     EXPECT_EQ(settings.output.path, "a.mp4");
@@ -40,6 +41,7 @@ TEST(CommandLine, FlagsBecomeSettings) {
     EXPECT_EQ(settings.host.end_after_silence_s, 2.5);
     EXPECT_EQ(settings.output.record, "r.jsonl");
     EXPECT_EQ(settings.terrain.tau_px, 3.0);
+    EXPECT_EQ(settings.render.show, config::Show::Levels);
 }
 
 TEST(CommandLine, SetTakesAnyKeyManyTimesAndANamedFlagWins) {
@@ -78,6 +80,7 @@ INSTANTIATE_TEST_SUITE_P(Faults, BadCommandLine,
                                          std::vector<const char*>{"--set", "view.near_m"},
                                          std::vector<const char*>{"--port", "70000"},
                                          std::vector<const char*>{"--rate", "0"},
+                                         std::vector<const char*>{"--show", "nothing"},
                                          std::vector<const char*>{"--window", "--none"},
                                          std::vector<const char*>{"--headless", "--window"},
                                          std::vector<const char*>{"--terrain"}));

@@ -87,6 +87,15 @@ ig::FrameStatistics Renderer::draw_now(const ig::View& view, ig::Picture& pictur
     return statistics;
 }
 
+DrawnPicture Renderer::draw_floor(const ig::View& view) {
+    DrawnPicture drawn;
+    frame_buffer_.bind();
+    scene_->draw_floor(view);
+    frame_buffer_.read(drawn.picture);
+    drawn.distance_m = read_distances(frame_buffer_.size(), view.near_m);
+    return drawn;
+}
+
 void write_png(const ig::Picture& picture, const std::string& file) {
     const OIIO::ImageSpec spec(picture.size.width_px, picture.size.height_px, 3, OIIO::TypeDesc::UINT8);
     OIIO::ImageBuf image(spec);

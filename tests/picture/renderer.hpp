@@ -44,6 +44,10 @@ class Renderer {
     /// Draws with what has been loaded by now.
     ig::FrameStatistics draw_now(const ig::View& view, ig::Picture& picture);
 
+    /// What draw_floor leaves, of the view that was drawn last.
+    [[nodiscard]] DrawnPicture draw_floor(const ig::View& view);
+    [[nodiscard]] ig::Shading shading() const { return scene_->shading(); }
+
     [[nodiscard]] const ig::GlIdentity& gl() const { return context_.identity(); }
 
   private:

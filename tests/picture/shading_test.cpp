@@ -90,6 +90,31 @@ TEST_P(ShadingPicture, IsTheSameAfterRasterToTwoStepsButOnSilhouettes) {
         << "the worst of " << inside << " by " << worst << " steps";
 }
 
+/// So that it is the least that drawing the same surface costs: nothing is left out.
+TEST_P(ShadingPicture, TheFloorHasTheFramesDepthAndShadesAllOfIt) {
+    ig::SceneOptions options;
+    options.sentinel = true;
+    Renderer renderer(open_synthetic_terrain(), kSize, options);
+    const DrawnPicture frame = renderer.draw_complete(GetParam().pose);
+    const DrawnPicture floor = renderer.draw_floor(view_of(GetParam().pose));
+    EXPECT_EQ(floor.distance_m, frame.distance_m);
+    for (int y = 0; y < kSize.height_px; ++y) {
+        for (int x = 0; x < kSize.width_px; ++x)
+            ASSERT_EQ(is_sentinel(floor.picture, x, y), is_sentinel(frame.picture, x, y)) << x << " " << y;
+    }
+}
+
+TEST_P(ShadingPicture, AutomaticSettlesOnOneOfTheTwoInTheFirstFrame) {
+    ig::SceneOptions options;
+    options.shading = ig::Shading::Automatic;
+    Renderer renderer(open_synthetic_terrain(), kSize, options);
+    const DrawnPicture first = renderer.draw_complete(GetParam().pose);
+    ASSERT_NE(renderer.shading(), ig::Shading::Automatic);
+    options.shading = renderer.shading();
+    Renderer told(open_synthetic_terrain(), kSize, options);
+    EXPECT_EQ(told.draw_complete(GetParam().pose).picture.rgba, first.picture.rgba);
+}
+
 INSTANTIATE_TEST_SUITE_P(Synthetic, ShadingPicture,
                          ::testing::Values(Scenery{"coast", pose({46.04, 8.03, 1500.0}, 205.0, -14.0, -12.0)},
                                            Scenery{"valley", pose({46.45, 8.2, 2500.0}, 60.0, -8.0, 0.0)},
