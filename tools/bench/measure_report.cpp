@@ -21,6 +21,11 @@ std::string posts_table(const FlightFigures& figures) {
                         worst.folded
                             ? fmt::format(", under a fold; max off folds {:.3f} px", posts.most_off_folds_px)
                             : std::string{});
+    if (posts.hole) {
+        text += fmt::format("  a hole                    tile {}/{}-{}, row {}, column {}\n",
+                            posts.hole->tile.depth, posts.hole->tile.x, posts.hole->tile.y, posts.hole->row,
+                            posts.hole->column);
+    }
     text += fmt::format("pops, px                    max {:.3f}  p99.9 {:.3f}  ({} posts)\n",
                         figures.pops.maximum(), figures.pops.percentile(0.999), figures.pops.count());
     text += fmt::format("edges                       {}, borders {}, cracks {}, overlaps {}\n",

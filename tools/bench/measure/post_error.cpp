@@ -191,6 +191,9 @@ void add(PostFigures& figures, const MeasuredTile& tile) {
         if (tile.folded[post]) ++figures.folded;
         if (std::isnan(tile.above_m[post])) {
             ++figures.uncovered;
+            const int hole = static_cast<int>(post);
+            figures.hole = WorstPost{
+                .tile = tile.tile->tile, .row = hole / PostTile::kSide, .column = hole % PostTile::kSide};
             continue;
         }
         const float error_px = std::abs(tile.above_m[post]) * tile.px_per_m[post];
@@ -211,6 +214,7 @@ void PostFigures::merge(const PostFigures& other) {
     error.merge(other.error);
     most_off_folds_px = std::max(most_off_folds_px, other.most_off_folds_px);
     uncovered += other.uncovered;
+    if (other.hole) hole = other.hole;
     overlapped += other.overlapped;
     folded += other.folded;
 }

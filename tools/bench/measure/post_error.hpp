@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,7 @@ struct PostFigures {
     PixelDistribution error;         ///< |above| in pixels of all posts in view that are covered
     double most_off_folds_px = 0.0;  ///< the greatest of posts that are under no fold
     std::uint64_t uncovered = 0;     ///< posts in view over which nothing is drawn: holes
+    std::optional<WorstPost> hole;   ///< one of them; without an error
     std::uint64_t overlapped = 0;    ///< covered by more than one layer
     std::uint64_t folded = 0;        ///< under a triangle that is seen from below
     void merge(const PostFigures& other);
