@@ -233,7 +233,8 @@ class Collapse {
             const Candidate next = queue_.top();
             queue_.pop();
             if (next.version != version_[next.vertex] || gone(next.vertex)) continue;
-            if (used_as_target_[next.vertex] == level_ ||
+            const Vertex first = request_.waits_for[next.vertex];
+            if (used_as_target_[next.vertex] == level_ || (first != next.vertex && !gone(first)) ||
                 (most_m <= allowed_m(level_) && !slides_well(next))) {
                 later.push_back(next);
                 continue;

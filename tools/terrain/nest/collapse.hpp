@@ -38,6 +38,8 @@ struct CollapseRequest {
     int last_level = 0;
     TriangleMesh mesh;  ///< of the first level, edge vertices that go at that level or before included
     std::vector<EdgeFate> fates;  ///< by vertex
+    /// By vertex: one on an edge that must go first; itself where there is none.
+    std::vector<std::uint16_t> waits_for;
 };
 
 /// By vertex, as in terrain::NestedMesh; the coarsest triangles in the numbers of the request's vertices.

@@ -149,9 +149,11 @@ class LineMaker {
   public:
     LineMaker(const Database& heights, const FirstLevels& levels) : heights_(heights), levels_(levels) {}
 
-    /// The line between a tile's edge and the tile beyond (none at a pole), simplified to a level.
-    std::vector<LineVertex> make(TileId tile, Edge edge, std::optional<TileId> beyond, int to_level) {
-        Line line = build(tile, edge, beyond);
+    /// The line between a tile's edge and the tile beyond (none at a pole), simplified to a level. The vertex
+    /// next to `pinned_end`, a place where the line ends at another one, stays.
+    std::vector<LineVertex> make(TileId tile, Edge edge, std::optional<TileId> beyond, int to_level,
+                                 std::optional<std::uint32_t> pinned_end) {
+        Line line = build(tile, edge, beyond, pinned_end);
         LineCollapse{line}.advance(to_level);
         return std::move(line.vertices);
     }
@@ -161,11 +163,15 @@ class LineMaker {
   private:
     [[nodiscard]] bool is_split(TileId tile) const { return heights_.find(tile)->has_children; }
 
-    Line build(TileId tile, Edge edge, std::optional<TileId> beyond) {
+    Line build(TileId tile, Edge edge, std::optional<TileId> beyond,
+               std::optional<std::uint32_t> pinned_end) {
         if (!is_split(tile) || (beyond && !is_split(*beyond))) {
             Line line = posts(tile, edge);
             pin_corners(line, tile, edge);
             if (beyond) pin_corners(line, *beyond, opposite(edge));
+            if (pinned_end && line.vertices.front().at == *pinned_end) line.pinned[1] = kLastLevel;
+            if (pinned_end && line.vertices.back().at == *pinned_end)
+                line.pinned[kBlockCells - 1] = kLastLevel;
             return line;
         }
         const auto here = quadrants_at(edge), there = quadrants_at(opposite(edge));
@@ -174,7 +180,7 @@ class LineMaker {
         for (std::size_t half = 0; half < 2; ++half) {
             std::optional<TileId> child_beyond;
             if (beyond) child_beyond = child(*beyond, there[half]);
-            Line part = build(child(tile, here[half]), edge, child_beyond);
+            Line part = build(child(tile, here[half]), edge, child_beyond, pinned_end);
             LineCollapse{part}.advance(pinned);
             const auto skip = static_cast<std::ptrdiff_t>(half);  // the middle is in both
             whole.vertices.insert(whole.vertices.end(), part.vertices.begin() + skip, part.vertices.end());
@@ -238,6 +244,13 @@ struct Arm {
 constexpr std::array<Arm, 4> kArms{
     {{0, Edge::East, 1}, {2, Edge::East, 3}, {0, Edge::North, 2}, {1, Edge::North, 3}}};
 
+/// Where an arm of a tile's cross ends at the tile's edge.
+std::uint32_t outer_end(TileId tile, std::size_t arm) {
+    const std::uint32_t side = kPlaceUnits >> tile.depth;
+    const std::uint32_t start = (kArms[arm].edge == Edge::East ? tile.y : tile.x) * side;
+    return arm % 2 == 0 ? start : start + side;
+}
+
 }  // namespace
 
 tl::expected<EdgeLines, std::string> EdgeLines::make(const Database& heights, const FirstLevels& levels) {
@@ -254,17 +267,36 @@ tl::expected<EdgeLines, std::string> EdgeLines::make(const Database& heights, co
         const auto [tile, cross] = work[i];
         for (std::size_t arm = 0; arm < kArms.size(); ++arm) {
             (*cross)[arm] = maker.make(child(tile, kArms[arm].child), kArms[arm].edge,
-                                       child(tile, kArms[arm].beyond), levels.at(tile));
+                                       child(tile, kArms[arm].beyond), levels.at(tile), outer_end(tile, arm));
         }
     });
     for (std::uint32_t x = 0; x < 2; ++x) {
         const TileId root{0, x, 0};
-        lines.root_sides_[x] = {maker.make(root, Edge::West, TileId{0, 1 - x, 0}, kLastLevel),
-                                maker.make(root, Edge::South, std::nullopt, kLastLevel),
-                                maker.make(root, Edge::North, std::nullopt, kLastLevel)};
+        lines.root_sides_[x] = {maker.make(root, Edge::West, TileId{0, 1 - x, 0}, kLastLevel, std::nullopt),
+                                maker.make(root, Edge::South, std::nullopt, kLastLevel, std::nullopt),
+                                maker.make(root, Edge::North, std::nullopt, kLastLevel, std::nullopt)};
     }
     if (!maker.failure().empty()) return tl::unexpected(maker.failure());
     return lines;
+}
+
+std::array<MeshGuard, 4> EdgeLines::guards(TileId tile) const {
+    const Cross& cross = crosses_.at(tile);
+    const std::uint32_t side = kPlaceUnits >> tile.depth;
+    std::array<MeshGuard, 4> guards;
+    for (std::size_t arm = 0; arm < kArms.size(); ++arm) {
+        const bool along_y = kArms[arm].edge == Edge::East;
+        const std::int64_t start = (along_y ? tile.y : tile.x) * std::int64_t{side};
+        // Next to the outer end, what stays.
+        const auto stays = [](const LineVertex& vertex) { return vertex.gone_level == NestedMesh::kStays; };
+        const auto& line = cross[arm];
+        const std::uint32_t next = arm % 2 == 0 ? std::find_if(line.begin() + 1, line.end(), stays)->at
+                                                : std::find_if(line.rbegin() + 1, line.rend(), stays)->at;
+        const std::int64_t along = (next - start) * (std::int64_t{1} << tile.depth);
+        const std::int64_t end = arm % 2 == 0 ? 0 : kPlaceUnits, middle = kPlaceUnits / 2;
+        guards[arm] = along_y ? MeshGuard{middle, along, middle, end} : MeshGuard{along, middle, end, middle};
+    }
+    return guards;
 }
 
 std::span<const LineVertex> EdgeLines::line(TileId tile, Edge edge) const {

@@ -8,6 +8,10 @@
 /// the first level of the parents on both sides. A whole line ends when the tile whose cross it is takes
 /// over: from there its vertices are inner ones.
 ///
+/// Where an arm ends at its tile's edge, the vertex next to that end stays on the arm, and in the tile's mesh
+/// until the end itself has gone: without this guard inner vertices would stand between the two neighbours
+/// that the end slides along, and its triangles would fold over them.
+///
 /// Beside a tile without children, posts of deeper tiles lie on the line too, interpolated: those of depth m
 /// go at bare_level(m - 1), into the neighbour before them, as those of virtual tiles do
 /// (terrain/database/virtual_tile.hpp).
@@ -36,6 +40,14 @@ struct LineVertex {
     std::uint32_t target_at = 0;
 };
 
+/// A vertex that must not go before another: places in a tile.
+struct MeshGuard {
+    std::int64_t x = 0;
+    std::int64_t y = 0;
+    std::int64_t end_x = 0;
+    std::int64_t end_y = 0;
+};
+
 class EdgeLines {
   public:
     /// Makes all lines. `heights` and `levels` are not kept. On failure: one sentence.
@@ -44,6 +56,9 @@ class EdgeLines {
 
     /// The line that an edge of a tile lies on, all of it, rising.
     [[nodiscard]] std::span<const LineVertex> line(terrain::TileId tile, terrain::Edge edge) const;
+
+    /// The guards of a tile with children, one an arm.
+    [[nodiscard]] std::array<MeshGuard, 4> guards(terrain::TileId tile) const;
 
     /// What becomes of a place on a line, found or interpolated (see above).
     [[nodiscard]] static LineVertex vertex_at(std::span<const LineVertex> line, std::uint32_t at);

@@ -30,6 +30,7 @@ constexpr std::int64_t kPostSpacing = kSide / kBlockCells;
 /// What a tile hands to its parent.
 struct Below {
     TriangleMesh coarsest;
+    std::vector<MeshGuard> guards;  ///< whose ends are still there, on the tile's edge
     HeightSamples samples;
 };
 
@@ -96,6 +97,34 @@ TriangleMesh joined(const std::array<Below, 4>& children) {
     return mesh;
 }
 
+/// The children's guards, in the parent's places, whose ends are on the parent's edge too.
+std::vector<MeshGuard> joined_guards(const std::array<Below, 4>& children) {
+    std::vector<MeshGuard> guards;
+    for (std::int64_t quadrant = 0; quadrant < 4; ++quadrant) {
+        const std::int64_t west = quadrant % 2 * kSide, south = quadrant / 2 * kSide;
+        for (const MeshGuard& guard : children[static_cast<std::size_t>(quadrant)].guards) {
+            const MeshGuard in_parent{(guard.x + west) / 2, (guard.y + south) / 2, (guard.end_x + west) / 2,
+                                      (guard.end_y + south) / 2};
+            if (in_parent.end_x % kSide == 0 || in_parent.end_y % kSide == 0) guards.push_back(in_parent);
+        }
+    }
+    return guards;
+}
+
+std::vector<std::uint16_t> waits(const TriangleMesh& mesh, const std::vector<MeshGuard>& guards) {
+    std::map<std::pair<std::int64_t, std::int64_t>, std::uint16_t> numbers;
+    std::vector<std::uint16_t> waits;
+    for (const MeshVertex& vertex : mesh.vertices) {
+        waits.push_back(static_cast<std::uint16_t>(waits.size()));
+        numbers[{vertex.x, vertex.y}] = waits.back();
+    }
+    for (const MeshGuard& guard : guards) {
+        const auto vertex = numbers.find({guard.x, guard.y}), end = numbers.find({guard.end_x, guard.end_y});
+        if (vertex != numbers.end() && end != numbers.end()) waits[vertex->second] = end->second;
+    }
+    return waits;
+}
+
 std::vector<EdgeFate> edge_fates(TileId tile, const TriangleMesh& mesh, const EdgeLines& lines) {
     std::vector<EdgeFate> fates(mesh.vertices.size());
     for (const Edge edge : kEdges) {
@@ -153,9 +182,12 @@ class Nesting {
 
         CollapseRequest request{tile, info.first_level, info.last_level, {}, {}};
         Below below;
+        std::vector<MeshGuard> guards;
         if (info.has_children) {
             auto parts = make_children(tile);
             if (!parts) return std::nullopt;
+            guards = joined_guards(*parts);
+            for (const MeshGuard& guard : lines_.guards(tile)) guards.push_back(guard);
             request.mesh = joined(*parts);
             below.samples =
                 HeightSamples::join({std::move((*parts)[0].samples), std::move((*parts)[1].samples),
@@ -169,10 +201,12 @@ class Nesting {
                                     tile.y, request.mesh.vertices.size(), kBlockVertices));
         request.fates = edge_fates(tile, request.mesh, lines_);
         take_heights(request.fates, request.mesh);
+        request.waits_for = waits(request.mesh, guards);
         const CollapseResult result = collapse(request, SampledSurface{tile, below.samples});
         if (auto done = put_({info, *block, nested_mesh(request, result, !info.has_children)}); !done)
             return stop(done.error());
         below.coarsest = coarsest(request.mesh, result);
+        below.guards = std::move(guards);
         return below;
     }
 
