@@ -41,6 +41,7 @@ int hue_of(const Colour& colour) {
 DrawnPicture draw(ig::Show show) {
     ig::SceneOptions options;
     options.show = show;
+    options.lod_method = "nested";
     Renderer renderer(open_synthetic_terrain(), kSize, options);
     return renderer.draw_complete(kValley);
 }
