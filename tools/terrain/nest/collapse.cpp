@@ -72,6 +72,7 @@ class Collapse {
         collapse_edges();
         for (std::size_t v = 0; v < around_.size(); ++v) weigh(static_cast<Vertex>(v));
         while (level_ < request_.last_level) {
+            begin_level();
             edges_done_ = ++level_;
             for (const Vertex touched : collapse_edges()) weigh(touched);
             collapse_inner(allowed_m(level_));
@@ -82,6 +83,7 @@ class Collapse {
             for (std::size_t v = 0; v < around_.size(); ++v) weigh(static_cast<Vertex>(v), more_m);
             collapse_inner(more_m);
         }
+        follow_targets();
         for (std::size_t t = 0; t < triangles_.size(); ++t) {
             if (!dead_[t]) result_.coarsest.push_back(triangles_[t]);
         }
@@ -162,15 +164,19 @@ class Collapse {
                 break;  // those of lower levels first
             }
         }
-        // What went to a vertex that went at the same level goes to where that went.
+        follow_targets();
+        std::sort(touched.begin(), touched.end());
+        touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+        return touched;
+    }
+
+    /// What went to a vertex that went at the same level goes to where that went.
+    void follow_targets() {
         for (std::size_t v = 0; v < result_.target.size(); ++v) {
             if (result_.gone_level[v] == NestedMesh::kStays) continue;
             Vertex& target = result_.target[v];
             while (result_.gone_level[target] <= result_.gone_level[v]) target = result_.target[target];
         }
-        std::sort(touched.begin(), touched.end());
-        touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
-        return touched;
     }
 
     /// One for neighbours on the mesh's border.
@@ -350,23 +356,49 @@ class Collapse {
         return *place;
     }
 
-    /// Half-way to its target, within what half a level less allows.
+    /// Remembers the mesh as it is before any vertex goes at this level.
+    void begin_level() {
+        before_ = triangles_;
+        first_before_.assign(around_.size() + 1, 0);
+        around_before_.clear();
+        for (std::size_t v = 0; v < around_.size(); ++v) {
+            around_before_.insert(around_before_.end(), around_[v].begin(), around_[v].end());
+            first_before_[v + 1] = around_before_.size();
+        }
+    }
+
+    /// Whether the triangles around a vertex, while it and all that go at this level so far slide, stay
+    /// unfolded and within what the level between allows.
     [[nodiscard]] bool slides_well(const Candidate& candidate) const {
-        const Corner& from = here(candidate.vertex).corner;
-        const Corner& to = here(candidate.target).corner;
-        Corner half{(from.x + to.x) / 2.0, (from.y + to.y) / 2.0, {}};
-        for (std::size_t i = 0; i < 3; ++i)
-            half.position_m[i] = (from.position_m[i] + to.position_m[i]) / 2.0F;
-        const float enough_m = allowed_m(level_ - 0.5);
-        for (const std::uint32_t t : around_[candidate.vertex]) {
-            std::array<const Corner*, 3> corners{};
-            for (std::size_t i = 0; i < 3; ++i) {
-                const Vertex corner = triangles_[t][i];
-                corners[i] = corner == candidate.vertex ? &half : &here(corner).corner;
+        for (const double share : {0.25, 0.5, 0.75}) {
+            const float enough_m = allowed_m(level_ - 1 + share);
+            for (std::size_t i = first_before_[candidate.vertex]; i < first_before_[candidate.vertex + 1U];
+                 ++i) {
+                const Triangle& triangle = before_[around_before_[i]];
+                const std::array<Corner, 3> corners{on_the_way(triangle[0], candidate, share),
+                                                    on_the_way(triangle[1], candidate, share),
+                                                    on_the_way(triangle[2], candidate, share)};
+                const auto& [a, b, c] = corners;
+                const double area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+                if (area < -1e-9) return false;
+                if (area > 1e-9 && surface_.error_m(a, b, c, enough_m) > enough_m) return false;
             }
-            if (surface_.error_m(*corners[0], *corners[1], *corners[2], enough_m) > enough_m) return false;
         }
         return true;
+    }
+
+    /// Where a vertex of the mesh before this level is when a share of the slide is done and the candidate
+    /// goes too.
+    [[nodiscard]] Corner on_the_way(Vertex v, const Candidate& candidate, double share) const {
+        const Corner& from = here(v).corner;
+        const bool slides = v == candidate.vertex || result_.gone_level[v] == level_;
+        if (!slides) return from;
+        const Corner& to = here(v == candidate.vertex ? candidate.target : result_.target[v]).corner;
+        Corner corner{from.x + share * (to.x - from.x), from.y + share * (to.y - from.y), {}};
+        const auto part = static_cast<float>(share);
+        for (std::size_t i = 0; i < 3; ++i)
+            corner.position_m[i] = from.position_m[i] + part * (to.position_m[i] - from.position_m[i]);
+        return corner;
     }
 
     void apply(Vertex v, Vertex target, int level) {
@@ -396,6 +428,9 @@ class Collapse {
     int edges_done_ = 0;  ///< the level that the edges' vertices have been taken to
     std::vector<Triangle> triangles_;
     std::vector<bool> dead_;
+    std::vector<Triangle> before_;  ///< triangles_ at the start of the level; and around_, in one row
+    std::vector<std::uint32_t> around_before_;
+    std::vector<std::size_t> first_before_;
     std::vector<std::vector<std::uint32_t>> around_;  ///< triangles, by vertex
     std::vector<Placed> places_;
     std::vector<std::vector<LaterPlace>> later_places_;

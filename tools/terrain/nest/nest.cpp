@@ -180,7 +180,7 @@ class Nesting {
         info.first_level = levels_.at(tile);
         info.last_level = static_cast<std::uint8_t>(last_level);
 
-        CollapseRequest request{tile, info.first_level, info.last_level, {}, {}};
+        CollapseRequest request{tile, info.first_level, info.last_level, {}, {}, {}};
         Below below;
         std::vector<MeshGuard> guards;
         if (info.has_children) {
