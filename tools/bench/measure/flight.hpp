@@ -14,7 +14,7 @@
 namespace eyepoint::tools {
 
 struct FlightOptions {
-    std::string lod_method = "regular";
+    std::string lod_method = "nested";
     bool cull = false;  ///< nested alone: leave out what nearer terrain hides; the drawn mesh has gaps there
     unsigned loader_threads = 1;
     std::uint64_t block_cache_bytes =
