@@ -15,7 +15,8 @@ SplitPosition split(const Ecef& point) {
 std::size_t Block::bytes() const {
     return sizeof(Block) + vertices.capacity() * sizeof(BlockVertex) +
            indices.capacity() * sizeof(std::uint16_t) + levels.capacity() * sizeof(NestedLevel) +
-           fine_posts.capacity() * sizeof(NestedMesh::FinePost) + (image ? image->rgb.capacity() : 0);
+           fine_posts.capacity() * sizeof(NestedMesh::FinePost) + (bounds ? sizeof(CellBounds) : 0) +
+           (image ? image->rgb.capacity() : 0);
 }
 
 std::shared_ptr<const Block> unfold(BlockData data, std::optional<ImageData> image) {

@@ -75,7 +75,8 @@ struct Block {
     std::uint8_t last_level = 0;
     /// The exact places of the last of a nested mesh's vertices, NestedMesh::fine_posts; empty for a grid.
     std::vector<NestedMesh::FinePost> fine_posts;
-    CellBounds bounds;               ///< of a nested mesh as it is drawn
+    /// Of a nested mesh as it is drawn; nullptr where they were not asked for.
+    std::shared_ptr<const CellBounds> bounds;
     std::optional<ImageData> image;  ///< the tile's own picture, if it has one
     bool has_water = false;          ///< any post is water
     /// Memory it holds, bytes.
@@ -88,9 +89,9 @@ struct Block {
 
 /// Unfolds a nested mesh: vertices, and the index lists of all its levels. `parent` is the parent's block,
 /// unfolded the same way; nullptr for a root. A vertex that stays takes the parent's normal, so that it has
-/// one in every block.
+/// one in every block. with_bounds: makes Block::bounds too, which horizon culling needs.
 [[nodiscard]] std::shared_ptr<const Block> unfold(BlockData data, const NodeInfo& info,
                                                   const NestedMesh& mesh, const Block* parent,
-                                                  std::optional<ImageData> image);
+                                                  std::optional<ImageData> image, bool with_bounds = false);
 
 }  // namespace eyepoint::terrain

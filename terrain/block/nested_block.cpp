@@ -176,7 +176,7 @@ void append_levels(Block& block, const NestedMesh& mesh, std::span<const Place> 
 }  // namespace
 
 std::shared_ptr<const Block> unfold(BlockData data, const NodeInfo& info, const NestedMesh& mesh,
-                                    const Block* parent, std::optional<ImageData> image) {
+                                    const Block* parent, std::optional<ImageData> image, bool with_bounds) {
     auto block = std::make_shared<Block>();
     block->data = data;
     block->first_level = info.first_level;
@@ -189,7 +189,7 @@ std::shared_ptr<const Block> unfold(BlockData data, const NodeInfo& info, const 
     block->has_water =
         std::any_of(data.water.begin(), data.water.end(), [](std::uint8_t flag) { return flag != 0; });
     block->image = std::move(image);
-    block->bounds = cell_bounds(*block, parent);
+    if (with_bounds) block->bounds = std::make_shared<const CellBounds>(cell_bounds(*block, parent));
     return block;
 }
 

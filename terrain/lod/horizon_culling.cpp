@@ -224,8 +224,9 @@ struct HorizonCulling::Frame {
     }
 
     /// The first step of the bounds that holds for all that is drawn of the block in this view.
-    [[nodiscard]] std::optional<int> step_of(const BlockDraw& draw, const CellBounds& bounds) const {
-        if (bounds.last_limit < 0) return std::nullopt;
+    [[nodiscard]] std::optional<int> step_of(const BlockDraw& draw, const CellBounds* known) const {
+        if (known == nullptr || known->last_limit < 0) return std::nullopt;
+        const CellBounds& bounds = *known;
         const double farthest_m = glm::distance(bounds.centre, upright.eye) + double{bounds.radius_m};
         const double floor = *std::max_element(draw.floors.begin(), draw.floors.end());
         const double level = std::max(level_at(farthest_m, level_scale) + kLevelMargin, floor);
@@ -236,14 +237,15 @@ struct HorizonCulling::Frame {
 
     /// Whether the near plane may cut a block, or the eye be below it.
     [[nodiscard]] bool touches(const BlockDraw& draw) const {
-        const CellBounds& bounds = draw.node->block->bounds;
+        const CellBounds* known = draw.node->block->bounds.get();
         constexpr double kNears =
             2.0;  // farthest corner of what the near plane cuts off, in a view that has a picture
         const double reach_m = kNears * near_m;
         const double drawn_off_m = level_error_m(draw.node->block->first_level);
         if (distance_m(draw.node->bounds, upright.eye) > reach_m + drawn_off_m) return false;
-        const auto step = step_of(draw, bounds);
+        const auto step = step_of(draw, known);
         if (!step) return true;
+        const CellBounds& bounds = *known;
         const CellBounds::Step& of = bounds.steps[static_cast<std::size_t>(*step)];
         const glm::dvec3 eye = glm::transpose(local_axes(bounds.centre)) * (upright.eye - bounds.centre);
         for (std::size_t i = 0; i < kCells; ++i) {
@@ -282,12 +284,12 @@ Selection HorizonCulling::cull(const LodView& view, double eye_above_ground_m, S
 }
 
 void HorizonCulling::cull_block(const Frame& frame, const BlockDraw& draw, Selection& selection) {
-    const CellBounds& bounds = draw.node->block->bounds;
-    const auto step = frame.step_of(draw, bounds);
+    const auto step = frame.step_of(draw, draw.node->block->bounds.get());
     if (!step) {
         kept_.push_back(draw);
         return;
     }
+    const CellBounds& bounds = *draw.node->block->bounds;
     const BlockView view = frame.view_of(bounds);
     ProjectedTops tops;
     project_tops(view, bounds, *step, kWholeBlock, kWholeBlock + 1, tops);

@@ -28,7 +28,8 @@ namespace eyepoint::terrain {
 class NestedLod final : public LodMethod {
   public:
     /// reuse: false makes every choice anew in every frame. cull: leave out what nearer terrain hides
-    /// (horizon_culling.hpp): the picture is the same, but the drawn mesh has gaps where it is not seen.
+    /// (horizon_culling.hpp): the picture is the same, but the drawn mesh has gaps where it is not seen. It
+    /// takes blocks with bounds (PagerOptions::cell_bounds).
     explicit NestedLod(bool reuse = true, bool cull = false) : reuse_(reuse), cull_(cull) {}
     [[nodiscard]] std::string_view name() const override { return "nested"; }
     [[nodiscard]] MeshKind mesh_kind() const override { return MeshKind::Nested; }

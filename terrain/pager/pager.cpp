@@ -95,14 +95,15 @@ tl::expected<std::shared_ptr<const Block>, std::string> Pager::unfold_stored(
     if (options_.mesh == MeshKind::Grid) return unfold(data, std::move(image));
     const auto mesh = database_->read_mesh(job.tile);
     if (!mesh) return tl::unexpected(mesh.error());
-    return unfold(data, job.info, *mesh, job.parent.get(), std::move(image));
+    return unfold(data, job.info, *mesh, job.parent.get(), std::move(image), options_.cell_bounds);
 }
 
 std::shared_ptr<const Block> Pager::interpolate(const Job& job) const {
     const BlockData data =
         subdivide(job.parent->data, quadrant(job.tile), database_->manifest().height_step_m);
     if (options_.mesh == MeshKind::Grid) return unfold(data, std::nullopt);
-    return unfold(data, job.info, virtual_mesh(job.info.last_level), job.parent.get(), std::nullopt);
+    return unfold(data, job.info, virtual_mesh(job.info.last_level), job.parent.get(), std::nullopt,
+                  options_.cell_bounds);
 }
 
 std::size_t Pager::publish(std::size_t most_blocks, std::uint64_t frame) {

@@ -26,6 +26,7 @@ inline constexpr std::uint64_t kKeepFrames = 60;
 struct PagerOptions {
     unsigned threads = 1;
     MeshKind mesh = MeshKind::Grid;  ///< what blocks are unfolded to
+    bool cell_bounds = false;        ///< nested blocks get Block::bounds, for horizon culling
     /// Loaded blocks kept, bytes. Blocks in use are never dropped, so a view that needs more gets more.
     std::uint64_t cache_bytes = 512ULL << 20;
 };

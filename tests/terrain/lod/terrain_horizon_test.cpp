@@ -107,9 +107,7 @@ struct Field {
         NodeInfo info;
         info.first_level = first_level;
         info.last_level = static_cast<std::uint8_t>(first_level + kLevels);
-        auto made = std::make_shared<Block>(*unfold(data(tile), info, mesh, parent, std::nullopt));
-        made->bounds = cell_bounds(*made, parent);
-        return made;
+        return unfold(data(tile), info, mesh, parent, std::nullopt, true);
     }
 
     void make_parent(TileNode& node, TileId tile) {
@@ -220,11 +218,11 @@ Selection whole_selection(const Field& field, const LodView& view) {
         for (const TileNode& node : *parent->children) {
             const Block& block = *node.block;
             const auto beyond = [&](const glm::dvec3& side) {
-                return glm::dot(side, block.bounds.centre - view.eye) < -double{block.bounds.radius_m};
+                return glm::dot(side, block.bounds->centre - view.eye) < -double{block.bounds->radius_m};
             };
             if (std::any_of(view.sides.begin(), view.sides.end(), beyond)) continue;
-            const double distance_m =
-                std::max(glm::distance(block.bounds.centre, view.eye) - double{block.bounds.radius_m}, 0.01);
+            const double distance_m = std::max(
+                glm::distance(block.bounds->centre, view.eye) - double{block.bounds->radius_m}, 0.01);
             const int level = std::clamp(static_cast<int>(level_at(distance_m, scale) - kLevelMargin),
                                          int{block.first_level}, int{block.last_level});
             const NestedLevel& list = block.levels[static_cast<std::size_t>(level - block.first_level)];

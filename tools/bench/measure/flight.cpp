@@ -35,6 +35,7 @@ tl::expected<std::unique_ptr<LodFlight>, std::string> LodFlight::create(
     }
     auto pager = terrain::Pager::create(std::move(database), {.threads = options.loader_threads,
                                                               .mesh = method->mesh_kind(),
+                                                              .cell_bounds = options.cull,
                                                               .cache_bytes = options.block_cache_bytes});
     if (!pager) return tl::unexpected(pager.error());
     return std::unique_ptr<LodFlight>(
