@@ -16,6 +16,7 @@ std::size_t Block::bytes() const {
     return sizeof(Block) + vertices.capacity() * sizeof(BlockVertex) +
            indices.capacity() * sizeof(std::uint16_t) + levels.capacity() * sizeof(NestedLevel) +
            fine_posts.capacity() * sizeof(NestedMesh::FinePost) + (bounds ? sizeof(CellBounds) : 0) +
+           cell_boxes.levels.capacity() * sizeof(CellBoxes::Level) +
            (image ? image->rgb.capacity() : 0);
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "terrain/block/cell_bounds.hpp"
+#include "terrain/block/cell_boxes.hpp"
 #include "terrain/database/database.hpp"
 #include "terrain/geodesy/position.hpp"
 
@@ -75,6 +76,7 @@ struct Block {
     std::uint8_t last_level = 0;
     /// The exact places of the last of a nested mesh's vertices, NestedMesh::fine_posts; empty for a grid.
     std::vector<NestedMesh::FinePost> fine_posts;
+    CellBoxes cell_boxes;  ///< no levels for a grid
     /// Of a nested mesh as it is drawn; nullptr where they were not asked for.
     std::shared_ptr<const CellBounds> bounds;
     std::optional<ImageData> image;  ///< the tile's own picture, if it has one

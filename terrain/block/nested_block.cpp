@@ -186,6 +186,7 @@ std::shared_ptr<const Block> unfold(BlockData data, const NodeInfo& info, const 
     const std::vector<Place> places = vertex_places(mesh);
     set_motion(*block, mesh, places, parent);
     append_levels(*block, mesh, places);
+    block->cell_boxes = cell_boxes(*block, parent);
     block->has_water =
         std::any_of(data.water.begin(), data.water.end(), [](std::uint8_t flag) { return flag != 0; });
     block->image = std::move(image);

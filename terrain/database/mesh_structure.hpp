@@ -21,8 +21,9 @@ namespace eyepoint::terrain {
                                                               std::uint8_t last_level);
 
 /// Whether the triangles of a mesh of sound structure, seen from above, cover the tile once: all
-/// counterclockwise or flat, every inner edge between two of them, every other edge on the tile's border, and their
-/// areas add up. On failure: the fault.
+/// counterclockwise or flat (but for those at a corner of the tile, which may have slid elsewhere), every
+/// inner edge between two of them, every other edge on the tile's border, and their areas add up. On failure:
+/// the fault.
 [[nodiscard]] tl::expected<void, std::string> check_cover(const NestedMesh& mesh);
 
 /// The triangles in the order that the codec gives them back: each from its smallest vertex on, rising.

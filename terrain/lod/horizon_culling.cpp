@@ -156,6 +156,18 @@ const NestedLevel& list_of(const BlockDraw& draw) {
     return block.levels[static_cast<std::size_t>(draw.level - block.first_level)];
 }
 
+/// Bits of the cells with triangles in a draw.
+std::uint64_t cells_of(const BlockDraw& draw) {
+    const auto& first = list_of(draw).cell_first;
+    const std::uint32_t end = draw.indices.first + draw.indices.count;
+    std::uint64_t cells = 0;
+    for (std::size_t i = 0; i < kCells; ++i) {
+        const bool drawn = first[i] >= draw.indices.first && first[i + 1] <= end && first[i] < first[i + 1];
+        cells |= std::uint64_t{drawn} << i;
+    }
+    return cells;
+}
+
 std::uint64_t triangles_of(const NestedLevel& list, std::uint64_t cells) {
     std::uint64_t triangles = 0;
     for (std::size_t i = 0; i < kCells; ++i)
@@ -276,41 +288,52 @@ Selection HorizonCulling::cull(const LodView& view, double eye_above_ground_m, S
     }
     horizon_.reset(*upright, static_cast<float>(kMarginPx / view.kappa_px + kMarginV));
     kept_.clear();
-    for (const BlockDraw& draw : selection.draws) cull_block(frame, draw, selection);
+    const std::span<const BlockDraw> draws = selection.draws;
+    for (std::size_t begin = 0, end = 0; begin < draws.size(); begin = end) {
+        while (end < draws.size() && draws[end].node == draws[begin].node) ++end;
+        cull_block(frame, draws.subspan(begin, end - begin), selection);
+    }
     kept_.swap(selection.draws);
     const std::uint64_t in_view = selection.triangles + selection.triangles_hidden;
     if (selection.triangles_hidden * kWorthwhile < in_view) idle_frames_ = kIdleFrames;
     return selection;
 }
 
-void HorizonCulling::cull_block(const Frame& frame, const BlockDraw& draw, Selection& selection) {
-    const auto step = frame.step_of(draw, draw.node->block->bounds.get());
+void HorizonCulling::cull_block(const Frame& frame, std::span<const BlockDraw> draws, Selection& selection) {
+    const CellBounds* known = draws.front().node->block->bounds.get();
+    const auto step = frame.step_of(draws.front(), known);
     if (!step) {
-        kept_.push_back(draw);
+        kept_.insert(kept_.end(), draws.begin(), draws.end());
         return;
     }
-    const CellBounds& bounds = *draw.node->block->bounds;
+    const CellBounds& bounds = *known;
     const BlockView view = frame.view_of(bounds);
     ProjectedTops tops;
     project_tops(view, bounds, *step, kWholeBlock, kWholeBlock + 1, tops);
     if (const auto whole = sight(tops, kWholeBlock); whole != TerrainHorizon::Sight::Visible) {
-        const std::uint64_t triangles = draw.indices.count / 3;
+        std::uint64_t triangles = 0;
+        for (const BlockDraw& draw : draws) triangles += draw.indices.count / 3;
         selection.triangles -= triangles;
         if (whole == TerrainHorizon::Sight::Hidden) selection.triangles_hidden += triangles;
         return;
     }
     project_tops(view, bounds, *step, 0, kCells, tops);
-    const NestedLevel& list = list_of(draw);
-    const CellSights cells = look_at_cells(list, tops, project_nodes(view, bounds, *step), Bands{view});
-    const std::uint64_t drawn = with_short_gaps(list, cells.visible);
-    keep_cells(draw, drawn);
-    selection.triangles -= triangles_of(list, ~drawn);
-    selection.triangles_hidden += triangles_of(list, cells.hidden & ~drawn);
+    std::uint64_t all = 0;
+    for (const BlockDraw& draw : draws) all |= cells_of(draw);
+    const CellSights sights = look_at_cells(all, tops, project_nodes(view, bounds, *step), Bands{view});
+    for (const BlockDraw& draw : draws) {
+        const NestedLevel& list = list_of(draw);
+        const std::uint64_t cells = cells_of(draw);
+        const std::uint64_t drawn = with_short_gaps(list, cells & sights.visible);
+        keep_cells(draw, drawn);
+        selection.triangles -= triangles_of(list, cells & ~drawn);
+        selection.triangles_hidden += triangles_of(list, cells & sights.hidden & ~drawn);
+    }
 }
 
 /// Band by band of cells, near to far, each raising the horizon for the next; then by the lines across the
 /// bands. Lines between hidden cells are below the horizon.
-HorizonCulling::CellSights HorizonCulling::look_at_cells(const NestedLevel& list, const ProjectedTops& tops,
+HorizonCulling::CellSights HorizonCulling::look_at_cells(std::uint64_t cells, const ProjectedTops& tops,
                                                          const ProjectedNodes& nodes, const Bands& bands) {
     CellSights sights;
     std::uint64_t open = 0;  // visible, or without triangles at this level
@@ -326,7 +349,7 @@ HorizonCulling::CellSights HorizonCulling::look_at_cells(const NestedLevel& list
         const int band = bands.rising ? n : kSide - 1 - n;
         for (int at = 0; at < kSide; ++at) {
             const auto i = static_cast<std::size_t>(bands.rows ? band * kSide + at : at * kSide + band);
-            const bool empty = list.cell_first[i] == list.cell_first[i + 1];
+            const bool empty = (cells >> i & 1U) == 0;
             const auto seen = empty ? TerrainHorizon::Sight::Visible : sight(tops, i);
             open |= std::uint64_t{seen == TerrainHorizon::Sight::Visible} << i;
             sights.visible |= std::uint64_t{seen == TerrainHorizon::Sight::Visible && !empty} << i;

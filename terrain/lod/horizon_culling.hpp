@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "terrain/block/cell_bounds.hpp"
@@ -23,10 +24,11 @@ struct ProjectedNodes;
 /// scratch space grows.
 class HorizonCulling {
   public:
-    /// selection: one draw a block, each the whole of a level's list, near to far. eye_above_ground_m: height
-    /// of the eye above the full-resolution surface. Draws come back in the same order, a block's visible
-    /// cells in as few draws as they have runs; short gaps between runs are drawn. `triangles_hidden` counts
-    /// those left out because terrain hides them; cells outside the view are left out too, uncounted.
+    /// selection: near to far, a block's draws in a row, each of whole cells of a level's list.
+    /// eye_above_ground_m: height of the eye above the full-resolution surface. Draws come back in the same
+    /// order, a block's visible cells in as few draws as they have runs of one level; short gaps between runs
+    /// are drawn. `triangles_hidden` counts those left out because terrain hides them; cells outside the view
+    /// are left out too, uncounted.
     [[nodiscard]] Selection cull(const LodView& view, double eye_above_ground_m, Selection selection);
 
   private:
@@ -34,8 +36,8 @@ class HorizonCulling {
     struct Bands;
     struct CellSights;
 
-    void cull_block(const Frame& frame, const BlockDraw& draw, Selection& selection);
-    [[nodiscard]] CellSights look_at_cells(const NestedLevel& list, const ProjectedTops& tops,
+    void cull_block(const Frame& frame, std::span<const BlockDraw> draws, Selection& selection);
+    [[nodiscard]] CellSights look_at_cells(std::uint64_t cells, const ProjectedTops& tops,
                                            const ProjectedNodes& nodes, const Bands& bands);
     [[nodiscard]] TerrainHorizon::Sight sight(const ProjectedTops& tops, std::size_t i) const;
     void keep_cells(const BlockDraw& draw, std::uint64_t drawn);

@@ -137,6 +137,7 @@ const Selection& NestedLod::select(const LodView& view, TileTree& tree, std::uin
     selection_.triangles = 0;
     selection_.blocks_tested = selection_.blocks_reused = selection_.blocks_chosen = 0;
     starved_.clear();
+    sides_.clear();
     refresh(quads_[0], frame);
     pending_.push_back({0, kWhole, kAllSides});
     while (!pending_.empty()) {
@@ -150,6 +151,7 @@ const Selection& NestedLod::select(const LodView& view, TileTree& tree, std::uin
     }
     if (!starved_.empty()) spread_floors(selection_.draws, starved_, tree, frame_number);
     selection_.triangles_hidden = 0;
+    if (cut_) selection_ = cutting_.cut(view, sides_, std::move(selection_));
     if (cull_) selection_ = culling_.cull(view, eye_above_lowest_m(tree, view.eye), std::move(selection_));
     return selection_;
 }
@@ -278,6 +280,7 @@ void NestedLod::draw(const Pending& pending, const Frame& frame) {
             starved_.push_back(static_cast<std::uint32_t>(selection_.draws.size()));
     }
     selection_.draws.push_back({&quad.nodes[lane], quad.range[lane], quad.level[lane], {}});
+    sides_.push_back(pending.planes);
     selection_.triangles += quad.range[lane].count / 3;
 }
 

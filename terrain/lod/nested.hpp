@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "terrain/lod/cell_cut.hpp"
 #include "terrain/lod/error_level.hpp"
 #include "terrain/lod/horizon_culling.hpp"
 #include "terrain/lod/lod_method.hpp"
@@ -17,7 +18,7 @@ namespace eyepoint::terrain {
 /// tile is drawn, with the list of level min(floor(lambda), last_level), where lambda >= first_level or there
 /// is nothing finer; else its four children are, or, until all four are loaded, the tile at its first level
 /// ("starved": nested_floors.hpp sees to its neighbours). Tiles outside the view or behind the curve of the
-/// Earth are left out. There is no balancing.
+/// Earth are left out. There is no balancing. Blocks are then cut into cells (cell_cut.hpp).
 ///
 /// LOD cache. A list of level k is right while every point of the tile is at least R_k = kappa E_k / (tau +
 /// s) away. Chosen with the box at D0 and the eye's odometer (length of its path) at o0, it stands while D0 -
@@ -28,9 +29,10 @@ namespace eyepoint::terrain {
 class NestedLod final : public LodMethod {
   public:
     /// reuse: false makes every choice anew in every frame. cull: leave out what nearer terrain hides
-    /// (horizon_culling.hpp): the picture is the same, but the drawn mesh has gaps where it is not seen. It
-    /// takes blocks with bounds (PagerOptions::cell_bounds).
-    explicit NestedLod(bool reuse = true, bool cull = false) : reuse_(reuse), cull_(cull) {}
+    /// (horizon_culling.hpp); it takes blocks with bounds (PagerOptions::cell_bounds). cut: false draws whole
+    /// blocks. The picture is the same with and without, but the drawn mesh has gaps where it is not seen.
+    explicit NestedLod(bool reuse = true, bool cull = false, bool cut = true)
+        : reuse_(reuse), cull_(cull), cut_(cut) {}
     [[nodiscard]] std::string_view name() const override { return "nested"; }
     [[nodiscard]] MeshKind mesh_kind() const override { return MeshKind::Nested; }
     [[nodiscard]] std::span<const std::uint16_t> indices() const override { return {}; }
@@ -81,7 +83,8 @@ class NestedLod final : public LodMethod {
     void draw(const Pending& pending, const Frame& frame);
     void wish(const Quad& quad, std::size_t lane, const Frame& frame);
 
-    bool reuse_, cull_;
+    bool reuse_, cull_, cut_;
+    CellCut cutting_;
     HorizonCulling culling_;
     const TileTree* tree_ = nullptr;
     Ecef eye_{0.0};
@@ -89,6 +92,7 @@ class NestedLod final : public LodMethod {
     std::vector<Quad> quads_;
     std::vector<Pending> pending_;
     std::vector<std::uint32_t> starved_;  ///< draws
+    std::vector<std::uint8_t> sides_;     ///< by draw: of the view, that may cut it
     Selection selection_;
 };
 

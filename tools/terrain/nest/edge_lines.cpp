@@ -221,8 +221,12 @@ class LineMaker {
             const float height_m = block->height_m(row, column);
             line.vertices.push_back({edge_start(tile, edge) + static_cast<std::uint32_t>(post) * spacing,
                                      height_m, NestedMesh::kStays, 0});
-            line.places.push_back(to_ecef({post_latitude_deg(tile, row), post_longitude_deg(tile, column),
-                                           EllipsoidalHeight{height_m}}));
+            // All posts at a pole are one place: they go as those of the row beside it do.
+            const bool at_pole =
+                along_x && (edge == Edge::South ? tile.y == 0 : tile.y + 1 == tiles_up(tile.depth));
+            const int beside = !at_pole ? row : edge == Edge::South ? 1 : kBlockCells - 1;
+            line.places.push_back(to_ecef({post_latitude_deg(tile, beside), post_longitude_deg(tile, column),
+                                           EllipsoidalHeight{block->height_m(beside, column)}}));
             line.pinned.push_back(0);
         }
         return line;

@@ -25,6 +25,8 @@ using namespace terrain;
 namespace {
 
 constexpr std::int64_t kSide = kPlaceUnits;
+/// Of the error of a tile's first level, what full-resolution posts between the samples may take.
+constexpr float kBetweenShare = 0.25F;
 constexpr std::int64_t kPostSpacing = kSide / kBlockCells;
 
 /// What a tile hands to its parent.
@@ -191,7 +193,8 @@ class Nesting {
             request.mesh = joined(*parts);
             below.samples =
                 HeightSamples::join({std::move((*parts)[0].samples), std::move((*parts)[1].samples),
-                                     std::move((*parts)[2].samples), std::move((*parts)[3].samples)});
+                                     std::move((*parts)[2].samples), std::move((*parts)[3].samples)},
+                                    kBetweenShare * static_cast<float>(level_error_m(info.first_level)));
         } else {
             request.mesh = whole_grid(*block);
             below.samples = posts_of(*block);

@@ -58,7 +58,7 @@ HeightSamples doubled(const HeightSamples& coarse) {
 
 }  // namespace
 
-HeightSamples HeightSamples::join(const std::array<HeightSamples, 4>& children) {
+HeightSamples HeightSamples::join(const std::array<HeightSamples, 4>& children, float most_between_m) {
     int part_side = 0;
     for (const HeightSamples& child : children) part_side = std::max(part_side, child.side);
     HeightSamples whole;
@@ -77,7 +77,9 @@ HeightSamples HeightSamples::join(const std::array<HeightSamples, 4>& children) 
             }
         }
     }
-    return whole.side > kMostSamples ? thinned(whole) : whole;
+    if (whole.side > kMostSamples) whole = thinned(whole);
+    for (float& between_m : whole.between_m) between_m = std::min(between_m, most_between_m);
+    return whole;
 }
 
 SampledSurface::SampledSurface(TileId tile, const HeightSamples& samples)

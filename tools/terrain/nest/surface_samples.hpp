@@ -13,7 +13,7 @@ namespace eyepoint::tools {
 /// Heights at samples a side: rows from south, samples from west. A tile without children has its posts;
 /// others their children's samples, thinned to every second one beyond kMostSamples a side.
 struct HeightSamples {
-    static constexpr int kMostSamples = 257;
+    static constexpr int kMostSamples = 513;
     int side = 0;
     std::vector<float> heights_m;
     /// How far full-resolution posts that are no samples may lie from the grid of samples around, metres.
@@ -24,8 +24,10 @@ struct HeightSamples {
                static_cast<std::size_t>(column);
     }
     /// Joins four children's samples (south-west, south-east, north-west, north-east), of any sides.
-    /// child_error_m: how far each child's surface lies from its own posts' grid.
-    [[nodiscard]] static HeightSamples join(const std::array<HeightSamples, 4>& children);
+    /// most_between_m: what `between_m` counts at most. Where the ground is rougher than that between
+    /// samples, no mesh could be made; its error there may be greater than its level's.
+    [[nodiscard]] static HeightSamples join(const std::array<HeightSamples, 4>& children,
+                                            float most_between_m);
 };
 
 /// A corner: place in units of samples from the south-west, and position.
