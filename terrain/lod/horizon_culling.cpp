@@ -21,7 +21,6 @@ namespace {
 constexpr int kSide = CellBounds::kSide;
 constexpr int kNodes = CellBounds::kNodes;
 constexpr std::size_t kCells = CellBounds::kCells;
-constexpr auto kWholeBlock = kCells;
 
 /// Hidden must be what is drawn, not only what is meant: a corner of a triangle is drawn up to 1/512 pixel
 /// off. In pixels, with room for the stretch of the upright picture.
@@ -41,16 +40,13 @@ struct BlockView {
     glm::vec3 centre{0.0F};   ///< right, forward, up of the eye
     glm::mat3 axes{1.0F};     ///< local to right, forward, up
     float per_radius = 0.0F;  ///< 1 / distance of the eye from the Earth's centre
-    /// How far, sideways, the low end of a thing may lie from beneath its top, since the block's vertical is
-    /// not everywhere its own.
-    float lean_m = 0.0F;
 };
 
 }  // namespace
 
-/// What cells and the whole block reach in the picture at most.
+/// What cells reach in the picture at most, by number.
 struct ProjectedTops {
-    using Each = std::array<float, kCells + 1>;
+    using Each = std::array<float, kCells>;
     Each least_u, greatest_u, v, ahead_m;
     Each steepest;  ///< the most of |u| and |v|; above kSteepest where a corner is not ahead of the eye
 };
@@ -58,28 +54,32 @@ struct ProjectedTops {
 namespace {
 
 constexpr float kBehind = 1e9F;
+constexpr std::uint8_t kNoList = 255;
 
-/// Corner by corner over all tops from first to last, in plain loops over arrays: the compiler makes vectors
-/// of them.
-void project_tops(const BlockView& view, const CellBounds& bounds, int step, std::size_t first,
-                  std::size_t last, ProjectedTops& tops) {
-    const CellBounds::Step& of = bounds.steps[static_cast<std::size_t>(step)];
+/// The sides and tops of boxes, in steps of the block's CellBoxes. Boxes without bounds have none, `bounded`
+/// 0.
+struct FlatTops {
+    using Each = std::array<float, kCells>;
+    Each west, east, south, north, top;
+    std::array<std::uint8_t, kCells> bounded;
+};
+
+/// Corner by corner over tops from first to last, in plain loops over arrays: the compiler makes vectors of
+/// them. lean_m: how far, sideways, the low end of a thing may lie from beneath its top, since the block's
+/// vertical is not everywhere its own.
+void project_tops(const BlockView& view, const FlatTops& of, float lean_m, std::size_t count,
+                  ProjectedTops& tops) {
     const glm::vec3 x_axis = view.axes[0], y_axis = view.axes[1], z_axis = view.axes[2], centre = view.centre;
-    const float per_radius = view.per_radius, lean_m = view.lean_m;
-    for (std::size_t i = first; i < last; ++i) {
-        const float top = of.top[i];
-        const float run_x = of.east[i] - of.west[i], run_y = of.north[i] - of.south[i];
+    const float per_radius = view.per_radius;
+    for (std::size_t i = 0; i < count; ++i) {
+        const float top = of.top[i], run_x = of.east[i] - of.west[i], run_y = of.north[i] - of.south[i];
         // The south-west corner, and the way from it to the south-east and to the north-west one.
         const float right = centre.x + x_axis.x * of.west[i] + y_axis.x * of.south[i] + z_axis.x * top;
         const float forward = centre.y + x_axis.y * of.west[i] + y_axis.y * of.south[i] + z_axis.y * top;
         const float up = centre.z + x_axis.z * of.west[i] + y_axis.z * of.south[i] + z_axis.z * top;
-        const float rise_x = bounds.slope_x[i] * run_x, rise_y = bounds.slope_y[i] * run_y;
-        const float east_r = x_axis.x * run_x + z_axis.x * rise_x,
-                    north_r = y_axis.x * run_y + z_axis.x * rise_y;
-        const float east_f = x_axis.y * run_x + z_axis.y * rise_x,
-                    north_f = y_axis.y * run_y + z_axis.y * rise_y;
-        const float east_u = x_axis.z * run_x + z_axis.z * rise_x,
-                    north_u = y_axis.z * run_y + z_axis.z * rise_y;
+        const float east_r = x_axis.x * run_x, north_r = y_axis.x * run_y;
+        const float east_f = x_axis.y * run_x, north_f = y_axis.y * run_y;
+        const float east_u = x_axis.z * run_x, north_u = y_axis.z * run_y;
         const auto pick = [](float a, float b, float c, float d, auto better) {
             return better(better(a, b), better(c, d));
         };
@@ -100,8 +100,20 @@ void project_tops(const BlockView& view, const CellBounds& bounds, int step, std
         tops.greatest_u[i] = greatest_u + lean_u;
         tops.v[i] = greatest_v;
         tops.ahead_m[i] = least_f / (1.0F + greatest_z * per_radius) - lean_m;
-        tops.steepest[i] = least_f > 0.0F ? steepest : kBehind;
+        tops.steepest[i] = least_f > 0.0F && of.bounded[i] != 0 ? steepest : kBehind;
     }
+}
+
+/// One box around all: the first one.
+FlatTops around(const FlatTops& tops) {
+    FlatTops one;
+    one.west[0] = *std::min_element(tops.west.begin(), tops.west.end());
+    one.east[0] = *std::max_element(tops.east.begin(), tops.east.end());
+    one.south[0] = *std::min_element(tops.south.begin(), tops.south.end());
+    one.north[0] = *std::max_element(tops.north.begin(), tops.north.end());
+    one.top[0] = *std::max_element(tops.top.begin(), tops.top.end());
+    one.bounded[0] = *std::min_element(tops.bounded.begin(), tops.bounded.end());
+    return one;
 }
 
 }  // namespace
@@ -151,42 +163,8 @@ ProjectedNodes project_nodes(const BlockView& view, const CellBounds& bounds, in
     return nodes;
 }
 
-const NestedLevel& list_of(const BlockDraw& draw) {
-    const Block& block = *draw.node->block;
-    return block.levels[static_cast<std::size_t>(draw.level - block.first_level)];
-}
-
-/// Bits of the cells with triangles in a draw.
-std::uint64_t cells_of(const BlockDraw& draw) {
-    const auto& first = list_of(draw).cell_first;
-    const std::uint32_t end = draw.indices.first + draw.indices.count;
-    std::uint64_t cells = 0;
-    for (std::size_t i = 0; i < kCells; ++i) {
-        const bool drawn = first[i] >= draw.indices.first && first[i + 1] <= end && first[i] < first[i + 1];
-        cells |= std::uint64_t{drawn} << i;
-    }
-    return cells;
-}
-
-std::uint64_t triangles_of(const NestedLevel& list, std::uint64_t cells) {
-    std::uint64_t triangles = 0;
-    for (std::size_t i = 0; i < kCells; ++i)
-        triangles += (cells >> i & 1U) != 0 ? (list.cell_first[i + 1] - list.cell_first[i]) / 3 : 0;
-    return triangles;
-}
-
-/// These cells, and those between two of them that are not worth a draw more.
-std::uint64_t with_short_gaps(const NestedLevel& list, std::uint64_t cells) {
-    std::uint64_t drawn = cells;
-    std::size_t gap = kCells;  // begin of the gap; kCells: none
-    for (std::size_t i = 0; i < kCells; ++i) {
-        if ((cells >> i & 1U) == 0) continue;
-        if (gap < i && list.cell_first[i] - list.cell_first[gap] < kGapIndices) {
-            for (std::size_t j = gap; j < i; ++j) drawn |= std::uint64_t{1} << j;
-        }
-        gap = i + 1;
-    }
-    return drawn;
+const NestedLevel& list_of(const Block& block, std::uint8_t level) {
+    return block.levels[static_cast<std::size_t>(level - block.first_level)];
 }
 
 /// Bits of the cells in rows or columns of cells `from` to `to`, both counted, that there are.
@@ -221,6 +199,29 @@ struct HorizonCulling::CellSights {
     std::uint64_t hidden = 0;
 };
 
+/// The cells of a block that are to be drawn: by which list each, kNoList for those that are not or have no
+/// triangles.
+struct HorizonCulling::CellLists {
+    std::array<std::uint8_t, kCells> level;
+    std::uint64_t triangles = 0;
+    std::uint8_t highest_floor = 0;
+
+    /// draws: all of one block.
+    explicit CellLists(std::span<const BlockDraw> draws)
+        : highest_floor(*std::max_element(draws.front().floors.begin(), draws.front().floors.end())) {
+        level.fill(kNoList);
+        for (const BlockDraw& draw : draws) {
+            const auto& first = list_of(*draw.node->block, draw.level).cell_first;
+            const std::uint32_t end = draw.indices.first + draw.indices.count;
+            for (std::size_t i = 0; i < kCells; ++i) {
+                if (first[i] >= draw.indices.first && first[i + 1] <= end && first[i] < first[i + 1])
+                    level[i] = draw.level;
+            }
+            triangles += draw.indices.count / 3;
+        }
+    }
+};
+
 struct HorizonCulling::Frame {
     UprightView upright;
     glm::dmat3 to_upright{1.0};
@@ -228,47 +229,110 @@ struct HorizonCulling::Frame {
     double near_m = 0.0;
 
     [[nodiscard]] BlockView view_of(const CellBounds& bounds) const {
-        const glm::dvec3 centre = to_upright * (bounds.centre - upright.eye);
-        const double lean_m =
-            double{bounds.height_range_m} * double{bounds.radius_m} / upright.radius_m * 1.1;
-        return {glm::vec3{centre}, glm::mat3{to_upright * local_axes(bounds.centre)},
-                static_cast<float>(1.0 / upright.radius_m), static_cast<float>(lean_m)};
+        return {glm::vec3{to_upright * (bounds.centre - upright.eye)},
+                glm::mat3{to_upright * local_axes(bounds.centre)},
+                static_cast<float>(1.0 / upright.radius_m)};
+    }
+    [[nodiscard]] BlockView view_of(const CellBoxes& boxes) const {
+        const glm::dmat3 axes = to_upright * boxes.axes;
+        const glm::dvec3 origin = to_upright * (boxes.centre - upright.eye) + axes * glm::dvec3{boxes.origin};
+        return {glm::vec3{origin},
+                glm::mat3{axes[0] * double{boxes.step_m.x}, axes[1] * double{boxes.step_m.y},
+                          axes[2] * double{boxes.step_m.z}},
+                static_cast<float>(1.0 / upright.radius_m)};
+    }
+    [[nodiscard]] float lean_m(const CellBoxes& boxes) const {
+        constexpr double kSteps = 255.0;
+        return static_cast<float>(kSteps * double{boxes.step_m.z} * double{boxes.radius_m} /
+                                  upright.radius_m * 1.1);
     }
 
     /// The first step of the bounds that holds for all that is drawn of the block in this view.
-    [[nodiscard]] std::optional<int> step_of(const BlockDraw& draw, const CellBounds* known) const {
-        if (known == nullptr || known->last_limit < 0) return std::nullopt;
-        const CellBounds& bounds = *known;
-        const double farthest_m = glm::distance(bounds.centre, upright.eye) + double{bounds.radius_m};
-        const double floor = *std::max_element(draw.floors.begin(), draw.floors.end());
-        const double level = std::max(level_at(farthest_m, level_scale) + kLevelMargin, floor);
-        if (level > bounds.last_limit) return std::nullopt;
-        return std::clamp(static_cast<int>(std::ceil(level)) - bounds.level_limit(0), 0,
-                          CellBounds::kSteps - 1);
+    [[nodiscard]] std::optional<int> step_of(const TileNode& node, std::uint8_t highest_floor) const {
+        const Block& block = *node.block;
+        const CellBounds* bounds = block.bounds.get();
+        if (bounds == nullptr || bounds->last_limit < 0) return std::nullopt;
+        const double farthest_m = glm::distance(bounds->centre, upright.eye) + double{bounds->radius_m};
+        const double level =
+            std::max(level_at(farthest_m, level_scale) + kLevelMargin, static_cast<double>(highest_floor));
+        if (level > bounds->last_limit) return std::nullopt;
+        const int step = std::clamp(static_cast<int>(std::ceil(level)) - bounds->level_limit(0), 0,
+                                    CellBounds::kSteps - 1);
+        const int list = std::clamp(bounds->list_level(step), int{block.first_level}, int{block.last_level});
+        const double nearest = level_at(distance_m(node.bounds, upright.eye), level_scale) - kLevelMargin;
+        if (list > int{block.first_level} && nearest < list) return std::nullopt;
+        return step;
+    }
+
+    /// The boxes of a block's cells, each for the first level that is asked for nowhere in it.
+    [[nodiscard]] FlatTops tops_of(const CellBoxes& boxes, std::uint8_t highest_floor) const {
+        FlatTops tops;
+        tops.bounded.fill(0);
+        if (boxes.levels.empty()) return tops;
+        const glm::vec3 eye{
+            (glm::transpose(boxes.axes) * (upright.eye - boxes.centre) - glm::dvec3{boxes.origin}) /
+            glm::dvec3{boxes.step_m}};
+        const glm::vec3 squares = boxes.step_m * boxes.step_m;
+        const double middle_m = glm::distance(boxes.centre, upright.eye);
+        const double nearest_m = middle_m - double{boxes.radius_m};
+        const double rounding_m = 1e-6 * (middle_m + double{boxes.radius_m});
+        int level = std::max({int{boxes.first_level}, int{highest_floor},
+                              static_cast<int>(level_at(std::max(nearest_m, 0.0), level_scale))});
+        for (std::size_t open = kCells; open > 0 && level <= boxes.last_level(); ++level) {
+            const double most_m = std::exp2((level - kLevelMargin) / 2.0) / level_scale - rounding_m;
+            open -= add_bounded(boxes.at(level), eye, squares, most_m, tops);
+        }
+        return tops;
+    }
+
+    /// Takes the boxes that are wholly within a distance, of those not taken yet; says how many.
+    static std::size_t add_bounded(const CellBoxes::Level& level, const glm::vec3& eye,
+                                   const glm::vec3& squares, double most_m, FlatTops& tops) {
+        const auto most_square = static_cast<float>(std::max(most_m, 0.0) * std::max(most_m, 0.0));
+        std::size_t added = 0;
+        for (std::size_t i = 0; i < kCells; ++i) {
+            const float west = level.low[0][i], east = level.high[0][i], south = level.low[1][i],
+                        north = level.high[1][i], bottom = level.low[2][i], top = level.high[2][i];
+            const auto farther = [](float at, float low, float high) {
+                const float to_low = at - low, to_high = high - at;
+                return to_low > to_high ? to_low : to_high;
+            };
+            const float x = farther(eye.x, west, east), y = farther(eye.y, south, north),
+                        z = farther(eye.z, bottom, top);
+            const bool takes = tops.bounded[i] == 0 &&
+                               x * x * squares.x + y * y * squares.y + z * z * squares.z <= most_square;
+            tops.west[i] = takes || tops.bounded[i] == 0 ? west : tops.west[i];
+            tops.east[i] = takes || tops.bounded[i] == 0 ? east : tops.east[i];
+            tops.south[i] = takes || tops.bounded[i] == 0 ? south : tops.south[i];
+            tops.north[i] = takes || tops.bounded[i] == 0 ? north : tops.north[i];
+            tops.top[i] = takes || tops.bounded[i] == 0 ? top : tops.top[i];
+            tops.bounded[i] = static_cast<std::uint8_t>(tops.bounded[i] | (takes ? 1 : 0));
+            added += takes ? 1 : 0;
+        }
+        return added;
     }
 
     /// Whether the near plane may cut a block, or the eye be below it.
     [[nodiscard]] bool touches(const BlockDraw& draw) const {
-        const CellBounds* known = draw.node->block->bounds.get();
         constexpr double kNears =
             2.0;  // farthest corner of what the near plane cuts off, in a view that has a picture
         const double reach_m = kNears * near_m;
-        const double drawn_off_m = level_error_m(draw.node->block->first_level);
+        const Block& block = *draw.node->block;
+        const double drawn_off_m = level_error_m(block.first_level);
         if (distance_m(draw.node->bounds, upright.eye) > reach_m + drawn_off_m) return false;
-        const auto step = step_of(draw, known);
-        if (!step) return true;
-        const CellBounds& bounds = *known;
-        const CellBounds::Step& of = bounds.steps[static_cast<std::size_t>(*step)];
-        const glm::dvec3 eye = glm::transpose(local_axes(bounds.centre)) * (upright.eye - bounds.centre);
+        const CellBoxes& boxes = block.cell_boxes;
+        const FlatTops tops = tops_of(boxes, *std::max_element(draw.floors.begin(), draw.floors.end()));
+        const glm::dvec3 eye =
+            glm::transpose(boxes.axes) * (upright.eye - boxes.centre) - glm::dvec3{boxes.origin};
+        const auto& first = block.levels.front().cell_first;
         for (std::size_t i = 0; i < kCells; ++i) {
-            if (of.west[i] > of.east[i]) continue;
-            const double x = std::clamp(eye.x, double{of.west[i]}, double{of.east[i]});
-            const double y = std::clamp(eye.y, double{of.south[i]}, double{of.north[i]});
-            if (std::hypot(eye.x - x, eye.y - y) > reach_m) continue;
-            const double slope_x = double{bounds.slope_x[i]}, slope_y = double{bounds.slope_y[i]};
-            const double top =
-                double{of.top[i]} + slope_x * (x - double{of.west[i]}) + slope_y * (y - double{of.south[i]});
-            if (eye.z - top < reach_m * (1.0 + std::abs(slope_x) + std::abs(slope_y))) return true;
+            if (first[i] == first[i + 1]) continue;
+            if (tops.bounded[i] == 0) return true;
+            const glm::dvec3 low = glm::dvec3{tops.west[i], tops.south[i], 0.0} * glm::dvec3{boxes.step_m};
+            const glm::dvec3 high =
+                glm::dvec3{tops.east[i], tops.north[i], tops.top[i]} * glm::dvec3{boxes.step_m};
+            const double x = std::clamp(eye.x, low.x, high.x), y = std::clamp(eye.y, low.y, high.y);
+            if (std::hypot(eye.x - x, eye.y - y) <= reach_m && eye.z - high.z < reach_m) return true;
         }
         return false;
     }
@@ -288,9 +352,9 @@ Selection HorizonCulling::cull(const LodView& view, double eye_above_ground_m, S
     }
     horizon_.reset(*upright, static_cast<float>(kMarginPx / view.kappa_px + kMarginV));
     kept_.clear();
-    const std::span<const BlockDraw> draws = selection.draws;
+    const std::span<const BlockDraw> draws{selection.draws};
     for (std::size_t begin = 0, end = 0; begin < draws.size(); begin = end) {
-        while (end < draws.size() && draws[end].node == draws[begin].node) ++end;
+        for (end = begin + 1; end < draws.size() && draws[end].node == draws[begin].node;) ++end;
         cull_block(frame, draws.subspan(begin, end - begin), selection);
     }
     kept_.swap(selection.draws);
@@ -300,65 +364,54 @@ Selection HorizonCulling::cull(const LodView& view, double eye_above_ground_m, S
 }
 
 void HorizonCulling::cull_block(const Frame& frame, std::span<const BlockDraw> draws, Selection& selection) {
-    const CellBounds* known = draws.front().node->block->bounds.get();
-    const auto step = frame.step_of(draws.front(), known);
-    if (!step) {
-        kept_.insert(kept_.end(), draws.begin(), draws.end());
-        return;
-    }
-    const CellBounds& bounds = *known;
-    const BlockView view = frame.view_of(bounds);
+    const TileNode& node = *draws.front().node;
+    const CellLists lists(draws);
+    const CellBoxes& boxes = node.block->cell_boxes;
+    const FlatTops flat = frame.tops_of(boxes, lists.highest_floor);
+    const BlockView view = frame.view_of(boxes);
+    const float lean_m = frame.lean_m(boxes);
     ProjectedTops tops;
-    project_tops(view, bounds, *step, kWholeBlock, kWholeBlock + 1, tops);
-    if (const auto whole = sight(tops, kWholeBlock); whole != TerrainHorizon::Sight::Visible) {
-        std::uint64_t triangles = 0;
-        for (const BlockDraw& draw : draws) triangles += draw.indices.count / 3;
-        selection.triangles -= triangles;
-        if (whole == TerrainHorizon::Sight::Hidden) selection.triangles_hidden += triangles;
+    project_tops(view, around(flat), lean_m, 1, tops);
+    selection.triangles -= lists.triangles;
+    if (const auto whole = sight(tops, 0); whole != TerrainHorizon::Sight::Visible) {
+        if (whole == TerrainHorizon::Sight::Hidden) selection.triangles_hidden += lists.triangles;
         return;
     }
-    project_tops(view, bounds, *step, 0, kCells, tops);
-    std::uint64_t all = 0;
-    for (const BlockDraw& draw : draws) all |= cells_of(draw);
-    const CellSights sights = look_at_cells(all, tops, project_nodes(view, bounds, *step), Bands{view});
-    for (const BlockDraw& draw : draws) {
-        const NestedLevel& list = list_of(draw);
-        const std::uint64_t cells = cells_of(draw);
-        const std::uint64_t drawn = with_short_gaps(list, cells & sights.visible);
-        keep_cells(draw, drawn);
-        selection.triangles -= triangles_of(list, cells & ~drawn);
-        selection.triangles_hidden += triangles_of(list, cells & sights.hidden & ~drawn);
-    }
+    project_tops(view, flat, lean_m, kCells, tops);
+    const auto step = frame.step_of(node, lists.highest_floor);
+    std::optional<ProjectedNodes> nodes;
+    if (step) nodes = project_nodes(frame.view_of(*node.block->bounds), *node.block->bounds, *step);
+    const CellSights cells = look_at_cells(lists, tops, nodes ? &*nodes : nullptr, Bands{view});
+    keep_cells(draws.front(), lists, cells, selection);
 }
 
 /// Band by band of cells, near to far, each raising the horizon for the next; then by the lines across the
 /// bands. Lines between hidden cells are below the horizon.
-HorizonCulling::CellSights HorizonCulling::look_at_cells(std::uint64_t cells, const ProjectedTops& tops,
-                                                         const ProjectedNodes& nodes, const Bands& bands) {
+HorizonCulling::CellSights HorizonCulling::look_at_cells(const CellLists& lists, const ProjectedTops& tops,
+                                                         const ProjectedNodes* nodes, const Bands& bands) {
     CellSights sights;
-    std::uint64_t open = 0;  // visible, or without triangles at this level
-    const auto raise = [&](const ProjectedNodes::Lines& lines, int line, bool along_bands) {
-        const bool rows = along_bands == bands.rows;
+    std::uint64_t open = 0;  // visible, or not to be drawn
+    const auto raise = [&](bool rows, int line) {
+        if (nodes == nullptr) return;
         const std::uint64_t beside = rows ? rows_of_cells(line - 1, line) : columns_of_cells(line - 1, line);
+        const auto& lines = rows ? nodes->rows : nodes->columns;
         if ((open & beside) != 0)
             horizon_.raise(std::span(lines).subspan(static_cast<std::size_t>(line * kNodes), kNodes));
     };
-    const auto& along = bands.rows ? nodes.rows : nodes.columns;
-    const auto& across = bands.rows ? nodes.columns : nodes.rows;
     for (int n = 0; n < kSide; ++n) {
         const int band = bands.rising ? n : kSide - 1 - n;
         for (int at = 0; at < kSide; ++at) {
             const auto i = static_cast<std::size_t>(bands.rows ? band * kSide + at : at * kSide + band);
-            const bool empty = (cells >> i & 1U) == 0;
+            const bool empty = lists.level[i] == kNoList;
             const auto seen = empty ? TerrainHorizon::Sight::Visible : sight(tops, i);
             open |= std::uint64_t{seen == TerrainHorizon::Sight::Visible} << i;
             sights.visible |= std::uint64_t{seen == TerrainHorizon::Sight::Visible && !empty} << i;
             sights.hidden |= std::uint64_t{seen == TerrainHorizon::Sight::Hidden} << i;
         }
-        raise(along, bands.rising ? band : band + 1, true);
+        raise(bands.rows, bands.rising ? band : band + 1);
     }
-    raise(along, bands.rising ? kSide : 0, true);
-    for (int line = 0; line < kNodes; ++line) raise(across, line, false);
+    raise(bands.rows, bands.rising ? kSide : 0);
+    for (int line = 0; line < kNodes; ++line) raise(!bands.rows, line);
     return sights;
 }
 
@@ -367,16 +420,30 @@ TerrainHorizon::Sight HorizonCulling::sight(const ProjectedTops& tops, std::size
     return horizon_.sight(tops.least_u[i], tops.greatest_u[i], tops.v[i], tops.ahead_m[i]);
 }
 
-/// A draw for every run of these cells.
-void HorizonCulling::keep_cells(const BlockDraw& draw, std::uint64_t drawn) {
-    const NestedLevel& cells = list_of(draw);
+/// A draw for every run of visible cells of one level; short gaps between them are drawn.
+void HorizonCulling::keep_cells(const BlockDraw& draw, const CellLists& lists, const CellSights& cells,
+                                Selection& selection) {
+    const Block& block = *draw.node->block;
+    std::uint64_t hidden = cells.hidden;
     for (std::size_t begin = 0, end = 0; begin < kCells; begin = end) {
-        const bool kept = (drawn >> begin & 1U) != 0;
-        for (end = begin + 1; end < kCells && (drawn >> end & 1U) == (kept ? 1U : 0U);) ++end;
-        const IndexRange range{cells.cell_first[begin], cells.cell_first[end] - cells.cell_first[begin]};
-        if (!kept || range.count == 0) continue;
+        end = begin + 1;
+        if ((cells.visible >> begin & 1U) == 0) continue;
+        const auto& first = list_of(block, lists.level[begin]).cell_first;
+        for (std::size_t next = end; next < kCells && first[next] - first[end] < kGapIndices; ++next) {
+            if ((cells.visible >> next & 1U) == 0) continue;
+            if (lists.level[next] != lists.level[begin]) break;
+            end = next + 1;
+        }
+        for (std::size_t i = begin; i < end; ++i) hidden &= ~(std::uint64_t{1} << i);
         kept_.push_back(draw);
-        kept_.back().indices = range;
+        kept_.back().level = lists.level[begin];
+        kept_.back().indices = {first[begin], first[end] - first[begin]};
+        selection.triangles += kept_.back().indices.count / 3;
+    }
+    for (std::size_t i = 0; i < kCells; ++i) {
+        if ((hidden >> i & 1U) == 0) continue;
+        const auto& first = list_of(block, lists.level[i]).cell_first;
+        selection.triangles_hidden += (first[i + 1] - first[i]) / 3;
     }
 }
 

@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "terrain/block/cell_bounds.hpp"
 #include "terrain/lod/lod_method.hpp"
 #include "terrain/lod/terrain_horizon.hpp"
 
@@ -34,13 +33,15 @@ class HorizonCulling {
   private:
     struct Frame;
     struct Bands;
+    struct CellLists;
     struct CellSights;
 
     void cull_block(const Frame& frame, std::span<const BlockDraw> draws, Selection& selection);
-    [[nodiscard]] CellSights look_at_cells(std::uint64_t cells, const ProjectedTops& tops,
-                                           const ProjectedNodes& nodes, const Bands& bands);
+    [[nodiscard]] CellSights look_at_cells(const CellLists& lists, const ProjectedTops& tops,
+                                           const ProjectedNodes* nodes, const Bands& bands);
     [[nodiscard]] TerrainHorizon::Sight sight(const ProjectedTops& tops, std::size_t i) const;
-    void keep_cells(const BlockDraw& draw, std::uint64_t drawn);
+    void keep_cells(const BlockDraw& draw, const CellLists& lists, const CellSights& cells,
+                    Selection& selection);
 
     TerrainHorizon horizon_;
     std::vector<BlockDraw> kept_;
