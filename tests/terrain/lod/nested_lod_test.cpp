@@ -90,10 +90,10 @@ class NestedLodTest : public ::testing::Test {
 std::unique_ptr<testing::ScratchFolder> NestedLodTest::scratch_;
 std::shared_ptr<const Database> NestedLodTest::database_;
 
-/// A pager and a method that go from view to view.
+/// A pager and a method, of whole blocks, that go from view to view.
 class Flight {
   public:
-    Flight(std::unique_ptr<Pager> pager, bool reuse) : pager_(std::move(pager)), lod_(reuse) {}
+    Flight(std::unique_ptr<Pager> pager, bool reuse) : pager_(std::move(pager)), lod_(reuse, false, false) {}
 
     /// Everything the view asks for, loaded; then the selection.
     const Selection& settle(const LodView& view) {

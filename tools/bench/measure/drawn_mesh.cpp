@@ -31,6 +31,7 @@ class Builder {
         : kind_(method.mesh_kind()), grid_indices_(method.indices()), eye_(terrain::split(view.eye)) {
         if (kind_ == MeshKind::Nested) motion_ = terrain::motion_view(view, morph);
         mesh_.eye = view.eye;
+        mesh_.sides = view.sides;
         number_.fill(kNone);
     }
 

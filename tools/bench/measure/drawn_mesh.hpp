@@ -1,6 +1,7 @@
 /// The triangles of a frame as they are drawn: the vertices where the vertex shader puts them.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -39,6 +40,7 @@ struct MeshPart {
 
 struct DrawnMesh {
     terrain::Ecef eye{0.0};
+    std::array<glm::dvec3, 4> sides{};    ///< of the view, LodView::sides
     std::vector<MeshVertex> vertices;     ///< of every part its own
     std::vector<MeshTriangle> triangles;  ///< all that are drawn, also those that have slid shut
     std::vector<MeshPart> parts;

@@ -7,6 +7,8 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include <glm/geometric.hpp>
+
 namespace eyepoint::tools {
 
 namespace {
@@ -139,6 +141,11 @@ class FaultCount {
   private:
     [[nodiscard]] bool is_border(const EdgeUse& use) const {
         const MeshVertex &a = mesh_.vertices[use.from], &b = mesh_.vertices[use.to];
+        const auto outside = [&](const glm::dvec3& side) {
+            return glm::dot(side, glm::dvec3{a.from_eye}) < 0.0 &&
+                   glm::dot(side, glm::dvec3{b.from_eye}) < 0.0;
+        };
+        if (std::any_of(mesh_.sides.begin(), mesh_.sides.end(), outside)) return true;
         const auto edge = common_tile_edge(a, b);
         return edge && !area_.drawn_across(mesh_.parts[use.part].tile, *edge, a.own_place, b.own_place);
     }

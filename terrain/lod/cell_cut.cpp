@@ -1,0 +1,229 @@
+#include "terrain/lod/cell_cut.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "terrain/lod/error_level.hpp"
+#include "terrain/lod/nested_motion.hpp"
+
+namespace eyepoint::terrain {
+
+namespace {
+
+constexpr std::size_t kCells = CellBoxes::kCells;
+constexpr std::size_t kLevels = kLastLevel + 1;
+/// A gap between runs of cells is drawn if it has fewer indices: a draw more costs as much.
+constexpr std::uint32_t kGapIndices = 3 * 12;
+/// Of coordinates and distances in float, by distance.
+constexpr double kRounding = 1e-6;
+
+using Distances = std::array<double, kLevels>;
+using Floats = std::array<float, kCells>;
+
+/// Distances at which level_at() is a level and a margin; scale 1.
+Distances unit_distances_m(double margin) {
+    Distances result{};
+    for (std::size_t level = 0; level < kLevels; ++level)
+        result[level] = std::exp2((static_cast<double>(level) + margin) / 2.0);
+    return result;
+}
+
+}  // namespace
+
+struct CellCut::Frame {
+    const LodView& view;
+    Distances at_least_m;  ///< from there on at least the level is asked for
+    Distances at_most_m;   ///< up to there at most
+
+    explicit Frame(const LodView& of) : view(of) {
+        static const Distances at_least = unit_distances_m(kLevelMargin),
+                               at_most = unit_distances_m(-kLevelMargin);
+        const double scale = level_scale(view.tau_px + view.slack_px, view.kappa_px);
+        for (std::size_t level = 0; level < kLevels; ++level) {
+            at_least_m[level] = at_least[level] / scale;
+            at_most_m[level] = at_most[level] / scale;
+        }
+    }
+    [[nodiscard]] double least(int level) const { return at_least_m[static_cast<std::size_t>(level)]; }
+    /// How far off what it stands for a surface may be drawn, at a distance.
+    [[nodiscard]] double tolerance_m(double distance_m) const {
+        return (view.tau_px + view.slack_px) / view.kappa_px * distance_m;
+    }
+    [[nodiscard]] double most(int level) const { return at_most_m[static_cast<std::size_t>(level)]; }
+};
+
+/// The view in the steps of a block's boxes.
+struct CellCut::LocalView {
+    const CellBoxes& boxes;
+    std::array<float, 3> eye{};      ///< steps
+    std::array<float, 3> squares{};  ///< square metres a square step
+    double distance_m = 0.0;         ///< of the boxes' centre
+    double rounding_m = 0.0;
+
+    LocalView(const CellBoxes& of, const LodView& view) : boxes(of) {
+        const glm::dvec3 from_centre = view.eye - boxes.centre;
+        const glm::dvec3 local = glm::transpose(boxes.axes) * from_centre;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto i = static_cast<std::size_t>(axis);
+            const double step_m = double{boxes.step_m[axis]};
+            eye[i] = static_cast<float>((local[axis] - double{boxes.origin[axis]}) / step_m);
+            squares[i] = static_cast<float>(step_m * step_m);
+        }
+        distance_m = glm::length(from_centre);
+        rounding_m = kRounding * (distance_m + double{boxes.radius_m});
+    }
+
+    [[nodiscard]] double nearest_m() const { return distance_m - double{boxes.radius_m}; }
+    [[nodiscard]] double farthest_m() const { return distance_m + double{boxes.radius_m}; }
+    [[nodiscard]] float square(double distance) const { return static_cast<float>(distance * distance); }
+
+    void near_squares(const CellBoxes::Level& level, Floats& result) const {
+        result.fill(0.0F);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const float at = eye[axis], scale = squares[axis];
+            for (std::size_t i = 0; i < kCells; ++i) {
+                const float below = static_cast<float>(level.low[axis][i]) - at;
+                const float above = at - static_cast<float>(level.high[axis][i]);
+                const float beyond = below > above ? below : above;
+                const float off = beyond > 0.0F ? beyond : 0.0F;
+                result[i] += scale * off * off;
+            }
+        }
+    }
+    void far_squares(const CellBoxes::Level& level, Floats& result) const {
+        result.fill(0.0F);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const float at = eye[axis], scale = squares[axis];
+            for (std::size_t i = 0; i < kCells; ++i) {
+                const float to_low = at - static_cast<float>(level.low[axis][i]);
+                const float to_high = static_cast<float>(level.high[axis][i]) - at;
+                const float off = to_low > to_high ? to_low : to_high;
+                result[i] += scale * off * off;
+            }
+        }
+    }
+    /// How far inside a side of the view the boxes reach, metres.
+    void inward(const CellBoxes::Level& level, const LodView& view, unsigned side, Floats& result) const {
+        const glm::dvec3 normal = glm::transpose(boxes.axes) * view.sides[side];
+        result.fill(static_cast<float>(glm::dot(view.sides[side], boxes.centre - view.eye) +
+                                       glm::dot(normal, glm::dvec3{boxes.origin})));
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto row = static_cast<std::size_t>(axis);
+            const auto slope = static_cast<float>(normal[axis] * double{boxes.step_m[axis]});
+            const CellBoxes::Side& inner = slope > 0.0F ? level.high[row] : level.low[row];
+            for (std::size_t i = 0; i < kCells; ++i) result[i] += slope * static_cast<float>(inner[i]);
+        }
+    }
+};
+
+Selection CellCut::cut(const LodView& view, std::span<const std::uint8_t> sides, Selection selection) {
+    const Frame frame(view);
+    kept_.clear();
+    for (std::size_t i = 0; i < selection.draws.size(); ++i)
+        cut_block(frame, selection.draws[i], sides[i], selection);
+    kept_.swap(selection.draws);
+    return selection;
+}
+
+void CellCut::cut_block(const Frame& frame, const BlockDraw& draw, unsigned sides, Selection& selection) {
+    const Block& block = *draw.node->block;
+    if (block.cell_boxes.levels.empty()) {
+        kept_.push_back(draw);
+        return;
+    }
+    const LocalView local(block.cell_boxes, frame.view);
+    const bool one_level = draw.level == block.last_level || local.farthest_m() < frame.least(draw.level + 1);
+    if (one_level && sides == 0) {
+        kept_.push_back(draw);
+        return;
+    }
+    Bytes levels, outside{};
+    levels.fill(draw.level);
+    if (!one_level) choose_levels(frame, local, block, levels);
+    if (sides != 0) find_outside(frame, local, draw, sides, outside);
+    selection.triangles -= draw.indices.count / 3;
+    keep(draw, levels, outside, selection);
+}
+
+void CellCut::choose_levels(const Frame& frame, const LocalView& local, const Block& block, Bytes& levels) {
+    for (int level = levels[0] + 1; level <= block.last_level; ++level) {
+        const double least_m = frame.least(level) + local.rounding_m;
+        if (local.farthest_m() < least_m) return;
+        Floats squares;
+        local.near_squares(local.boxes.at(level - 1), squares);
+        const float least_square = local.square(least_m);
+        const auto before = static_cast<std::uint8_t>(level - 1);
+        for (std::size_t i = 0; i < kCells; ++i) {
+            const auto passes = static_cast<std::uint8_t>(squares[i] >= least_square ? 1 : 0);
+            const auto stood = static_cast<std::uint8_t>(levels[i] == before ? 1 : 0);
+            levels[i] = static_cast<std::uint8_t>(levels[i] + (passes & stood));
+        }
+    }
+}
+
+/// Cell by cell at the first level that is nowhere exceeded in its box. A floor counts as asked for.
+void CellCut::find_outside(const Frame& frame, const LocalView& local, const BlockDraw& draw, unsigned sides,
+                           Bytes& outside) {
+    const int floor = *std::max_element(draw.floors.begin(), draw.floors.end());
+    int level = std::max({int{draw.level}, int{local.boxes.first_level}, floor});
+    const int last = local.boxes.last_level();
+    while (level < last && frame.most(level) < local.nearest_m()) ++level;
+    const auto least_m =
+        static_cast<float>(-local.rounding_m - frame.tolerance_m(std::max(local.farthest_m(), 0.0)));
+    Bytes open;
+    open.fill(1);
+    for (bool more = true; more && level <= last; ++level) {
+        const CellBoxes::Level& boxes = local.boxes.at(level);
+        Floats squares;
+        local.far_squares(boxes, squares);
+        const float most_square = local.square(std::max(frame.most(level) - local.rounding_m, 0.0));
+        Bytes bounded;
+        for (std::size_t i = 0; i < kCells; ++i)
+            bounded[i] = static_cast<std::uint8_t>(squares[i] <= most_square ? open[i] : 0);
+        for (unsigned side = 0; side < 4; ++side) {
+            if ((sides >> side & 1U) == 0) continue;
+            Floats inward_m;
+            local.inward(boxes, frame.view, side, inward_m);
+            for (std::size_t i = 0; i < kCells; ++i)
+                outside[i] |= static_cast<std::uint8_t>(inward_m[i] < least_m ? bounded[i] : 0);
+        }
+        std::uint8_t any = 0;
+        for (std::size_t i = 0; i < kCells; ++i) {
+            open[i] = static_cast<std::uint8_t>(open[i] ^ bounded[i]);
+            any |= open[i];
+        }
+        more = any != 0;
+    }
+}
+
+/// A draw for every run of cells of one level.
+void CellCut::keep(const BlockDraw& draw, const Bytes& levels, const Bytes& outside, Selection& selection) {
+    const Block& block = *draw.node->block;
+    const auto list = [&](std::size_t cell) -> const auto& {
+        return block.levels[static_cast<std::size_t>(levels[cell] - block.first_level)].cell_first;
+    };
+    const auto is_drawn = [&](std::size_t cell) {
+        return outside[cell] == 0 && list(cell)[cell] < list(cell)[cell + 1];
+    };
+    for (std::size_t begin = 0, end = 0; begin < kCells; begin = end) {
+        end = begin + 1;
+        if (!is_drawn(begin)) continue;
+        const std::uint8_t level = levels[begin];
+        const auto& first = list(begin);
+        for (std::size_t next = end; next < kCells && first[next] - first[end] < kGapIndices; ++next) {
+            if (!is_drawn(next)) continue;
+            if (levels[next] != level) break;
+            end = next + 1;
+        }
+        kept_.push_back(draw);
+        kept_.back().level = level;
+        kept_.back().indices = {first[begin], first[end] - first[begin]};
+        selection.triangles += kept_.back().indices.count / 3;
+    }
+}
+
+}  // namespace eyepoint::terrain
