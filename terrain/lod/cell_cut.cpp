@@ -1,7 +1,9 @@
 #include "terrain/lod/cell_cut.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -23,6 +25,19 @@ constexpr double kRounding = 1e-6;
 
 using Distances = std::array<double, kLevels>;
 using Floats = std::array<float, kCells>;
+using Bytes = std::array<std::uint8_t, kCells>;
+
+/// Bit n is byte n, 0 or 1: a product brings the low bits of eight bytes, one after the other, into its top
+/// byte.
+std::uint64_t bits(const Bytes& bytes) {
+    std::uint64_t result = 0;
+    for (std::size_t i = 0; i < kCells; i += 8) {
+        std::uint64_t eight = 0;
+        for (std::size_t j = 0; j < 8; ++j) eight |= std::uint64_t{bytes[i + j]} << (8 * j);
+        result |= (eight * 0x0102040810204080) >> 56 << i;
+    }
+    return result;
+}
 
 /// Distances at which level_at() is a level and a margin; scale 1.
 Distances unit_distances_m(double margin) {
@@ -137,91 +152,93 @@ void CellCut::cut_block(const Frame& frame, const BlockDraw& draw, unsigned side
     }
     const LocalView local(block.cell_boxes, frame.view);
     const bool one_level = draw.level == block.last_level || local.farthest_m() < frame.least(draw.level + 1);
-    if (one_level && sides == 0) {
+    const std::uint64_t outside = sides != 0 ? find_outside(frame, local, draw, sides) : 0;
+    if (one_level && outside == 0) {
         kept_.push_back(draw);
         return;
     }
-    Bytes levels, outside{};
-    levels.fill(draw.level);
-    if (!one_level) choose_levels(frame, local, block, levels);
-    if (sides != 0) find_outside(frame, local, draw, sides, outside);
     selection.triangles -= draw.indices.count / 3;
-    keep(draw, levels, outside, selection);
-}
-
-void CellCut::choose_levels(const Frame& frame, const LocalView& local, const Block& block, Bytes& levels) {
-    for (int level = levels[0] + 1; level <= block.last_level; ++level) {
-        const double least_m = frame.least(level) + local.rounding_m;
-        if (local.farthest_m() < least_m) return;
-        Floats squares;
-        local.near_squares(local.boxes.at(level - 1), squares);
-        const float least_square = local.square(least_m);
-        const auto before = static_cast<std::uint8_t>(level - 1);
-        for (std::size_t i = 0; i < kCells; ++i) {
-            const auto passes = static_cast<std::uint8_t>(squares[i] >= least_square ? 1 : 0);
-            const auto stood = static_cast<std::uint8_t>(levels[i] == before ? 1 : 0);
-            levels[i] = static_cast<std::uint8_t>(levels[i] + (passes & stood));
-        }
+    std::uint64_t here = ~std::uint64_t{0};  // this level or a coarser one
+    for (int level = draw.level; here != 0; ++level) {
+        const std::uint64_t coarser = level < block.last_level ? here & allowing(frame, local, level + 1) : 0;
+        keep(draw, static_cast<std::uint8_t>(level), here & ~coarser, ~outside, selection);
+        here = coarser;
     }
 }
 
-/// Cell by cell at the first level that is nowhere exceeded in its box. A floor counts as asked for.
-void CellCut::find_outside(const Frame& frame, const LocalView& local, const BlockDraw& draw, unsigned sides,
-                           Bytes& outside) {
+/// The cells that may be drawn with the list of a level.
+std::uint64_t CellCut::allowing(const Frame& frame, const LocalView& local, int level) {
+    const double least_m = frame.least(level) + local.rounding_m;
+    if (local.farthest_m() < least_m) return 0;
+    Floats squares;
+    local.near_squares(local.boxes.at(level - 1), squares);
+    const float least_square = local.square(least_m);
+    Bytes far;
+    for (std::size_t i = 0; i < kCells; ++i)
+        far[i] = static_cast<std::uint8_t>(squares[i] >= least_square ? 1 : 0);
+    return bits(far);
+}
+
+/// The cells beside the view: each by its box for the first level that is nowhere exceeded in it. A floor
+/// counts as asked for. Boxes grow with the level: what is not outside at one is not at the next.
+std::uint64_t CellCut::find_outside(const Frame& frame, const LocalView& local, const BlockDraw& draw,
+                                    unsigned sides) {
     const int floor = *std::max_element(draw.floors.begin(), draw.floors.end());
     int level = std::max({int{draw.level}, int{local.boxes.first_level}, floor});
     const int last = local.boxes.last_level();
     while (level < last && frame.most(level) < local.nearest_m()) ++level;
     const auto least_m =
         static_cast<float>(-local.rounding_m - frame.tolerance_m(std::max(local.farthest_m(), 0.0)));
-    Bytes open;
-    open.fill(1);
-    for (bool more = true; more && level <= last; ++level) {
+    std::uint64_t outside = 0, open = ~std::uint64_t{0};
+    for (; level <= last; ++level) {
         const CellBoxes::Level& boxes = local.boxes.at(level);
-        Floats squares;
-        local.far_squares(boxes, squares);
-        const float most_square = local.square(std::max(frame.most(level) - local.rounding_m, 0.0));
-        Bytes bounded;
-        for (std::size_t i = 0; i < kCells; ++i)
-            bounded[i] = static_cast<std::uint8_t>(squares[i] <= most_square ? open[i] : 0);
+        Bytes beyond{};
         for (unsigned side = 0; side < 4; ++side) {
             if ((sides >> side & 1U) == 0) continue;
             Floats inward_m;
             local.inward(boxes, frame.view, side, inward_m);
             for (std::size_t i = 0; i < kCells; ++i)
-                outside[i] |= static_cast<std::uint8_t>(inward_m[i] < least_m ? bounded[i] : 0);
+                beyond[i] = static_cast<std::uint8_t>(inward_m[i] < least_m ? 1 : beyond[i]);
         }
-        std::uint8_t any = 0;
-        for (std::size_t i = 0; i < kCells; ++i) {
-            open[i] = static_cast<std::uint8_t>(open[i] ^ bounded[i]);
-            any |= open[i];
-        }
-        more = any != 0;
+        open &= bits(beyond);
+        if (open == 0) break;
+        Floats squares;
+        local.far_squares(boxes, squares);
+        const float most_square = local.square(std::max(frame.most(level) - local.rounding_m, 0.0));
+        Bytes bounded;
+        for (std::size_t i = 0; i < kCells; ++i)
+            bounded[i] = static_cast<std::uint8_t>(squares[i] <= most_square ? 1 : 0);
+        const std::uint64_t now = open & bits(bounded);
+        outside |= now;
+        open &= ~now;
     }
+    return outside;
 }
 
-/// A draw for every run of cells of one level.
-void CellCut::keep(const BlockDraw& draw, const Bytes& levels, const Bytes& outside, Selection& selection) {
+/// A draw for every run of a level's cells that are in view.
+void CellCut::keep(const BlockDraw& draw, std::uint8_t level, std::uint64_t cells, std::uint64_t in_view,
+                   Selection& selection) {
     const Block& block = *draw.node->block;
-    const auto list = [&](std::size_t cell) -> const auto& {
-        return block.levels[static_cast<std::size_t>(levels[cell] - block.first_level)].cell_first;
-    };
-    const auto is_drawn = [&](std::size_t cell) {
-        return outside[cell] == 0 && list(cell)[cell] < list(cell)[cell + 1];
-    };
-    for (std::size_t begin = 0, end = 0; begin < kCells; begin = end) {
-        end = begin + 1;
-        if (!is_drawn(begin)) continue;
-        const std::uint8_t level = levels[begin];
-        const auto& first = list(begin);
-        for (std::size_t next = end; next < kCells && first[next] - first[end] < kGapIndices; ++next) {
-            if (!is_drawn(next)) continue;
-            if (levels[next] != level) break;
+    const auto& first = block.levels[static_cast<std::size_t>(level - block.first_level)].cell_first;
+    Bytes filled;
+    for (std::size_t i = 0; i < kCells; ++i)
+        filled[i] = static_cast<std::uint8_t>(first[i] != first[i + 1] ? 1 : 0);
+    // Cells of other levels that are in view may not be drawn with a gap, be they empty at this level.
+    const std::uint64_t others = ~cells & in_view;
+    for (std::uint64_t left = cells & in_view & bits(filled); left != 0;) {
+        const int begin = std::countr_zero(left);
+        int end = begin + 1;
+        for (left &= left - 1; left != 0; left &= left - 1) {
+            const int next = std::countr_zero(left);
+            const std::uint64_t gap = (std::uint64_t{1} << next) - (std::uint64_t{1} << end);
+            const auto from = static_cast<std::size_t>(end), to = static_cast<std::size_t>(next);
+            if ((gap & others) != 0 || first[to] - first[from] >= kGapIndices) break;
             end = next + 1;
         }
+        const std::uint32_t start = first[static_cast<std::size_t>(begin)];
         kept_.push_back(draw);
         kept_.back().level = level;
-        kept_.back().indices = {first[begin], first[end] - first[begin]};
+        kept_.back().indices = {start, first[static_cast<std::size_t>(end)] - start};
         selection.triangles += kept_.back().indices.count / 3;
     }
 }

@@ -2,7 +2,6 @@
 /// allows, and none of those beside the view.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -32,14 +31,13 @@ class CellCut {
 
   private:
     struct Frame;
-    struct LocalView;
-    using Bytes = std::array<std::uint8_t, CellBoxes::kCells>;
-
+    struct LocalView;  // sets of cells below: bit n for cell n
     void cut_block(const Frame& frame, const BlockDraw& draw, unsigned sides, Selection& selection);
-    static void choose_levels(const Frame& frame, const LocalView& local, const Block& block, Bytes& levels);
-    static void find_outside(const Frame& frame, const LocalView& local, const BlockDraw& draw,
-                             unsigned sides, Bytes& outside);
-    void keep(const BlockDraw& draw, const Bytes& levels, const Bytes& outside, Selection& selection);
+    static std::uint64_t allowing(const Frame& frame, const LocalView& local, int level);
+    static std::uint64_t find_outside(const Frame& frame, const LocalView& local, const BlockDraw& draw,
+                                      unsigned sides);
+    void keep(const BlockDraw& draw, std::uint8_t level, std::uint64_t cells, std::uint64_t in_view,
+              Selection& selection);
 
     std::vector<BlockDraw> kept_;
 };
