@@ -1,7 +1,9 @@
 #include "tools/bench/measure/mesh_faults.hpp"
 
+#include <algorithm>
 #include <cmath>
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "tests/tools/bench/small_flight.hpp"
@@ -19,12 +21,17 @@ class MeshWithFaults : public ::testing::Test {
     terrain::LodView view = look_north(46.4, 8.25, 6000.0, 30.0, 2.0);
     DrawnMesh mesh = flight.mesh(view);
 
-    /// A triangle with no corner on its tile's edge.
+    [[nodiscard]] bool in_view(std::uint32_t vertex) const {
+        return std::all_of(view.sides.begin(), view.sides.end(), [&](const glm::dvec3& side) {
+            return glm::dot(side, glm::dvec3{mesh.vertices[vertex].from_eye}) > 0.0;
+        });
+    }
+    /// A triangle in view with no corner on its tile's edge.
     [[nodiscard]] MeshTriangle& inner_triangle() {
         for (MeshTriangle& triangle : mesh.triangles) {
             bool inner = true;
             for (const std::uint32_t corner : triangle.vertices) {
-                inner = inner && mesh.vertices[corner].tile_edges == 0;
+                inner = inner && mesh.vertices[corner].tile_edges == 0 && in_view(corner);
             }
             if (inner) return triangle;
         }
@@ -44,6 +51,16 @@ TEST_F(MeshWithFaults, AMissingTriangleLeavesThreeEdges) {
     MeshTriangle& triangle = inner_triangle();
     triangle.vertices = {triangle.vertices[0], triangle.vertices[0], triangle.vertices[0]};
     EXPECT_EQ(find_mesh_faults(mesh).cracks, 3U);
+}
+
+TEST_F(MeshWithFaults, WhatIsMissingBesideTheViewIsNoCrack) {
+    MeshTriangle& triangle = inner_triangle();
+    for (glm::dvec3& side : mesh.sides) side = -side;
+    const std::size_t borders = find_mesh_faults(mesh).borders;
+    triangle.vertices = {triangle.vertices[0], triangle.vertices[0], triangle.vertices[0]};
+    const MeshFaults faults = find_mesh_faults(mesh);
+    EXPECT_EQ(faults.borders, borders + 3);
+    EXPECT_EQ(faults.cracks, 0U);
 }
 
 TEST_F(MeshWithFaults, ATriangleDrawnTwiceOverlaps) {
