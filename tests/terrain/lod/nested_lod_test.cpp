@@ -90,10 +90,11 @@ class NestedLodTest : public ::testing::Test {
 std::unique_ptr<testing::ScratchFolder> NestedLodTest::scratch_;
 std::shared_ptr<const Database> NestedLodTest::database_;
 
-/// A pager and a method, of whole blocks, that go from view to view.
+/// A pager and a method, of whole blocks or cut into cells, that go from view to view.
 class Flight {
   public:
-    Flight(std::unique_ptr<Pager> pager, bool reuse) : pager_(std::move(pager)), lod_(reuse, false, false) {}
+    Flight(std::unique_ptr<Pager> pager, bool reuse, bool cut = false)
+        : pager_(std::move(pager)), lod_(reuse, false, cut) {}
 
     /// Everything the view asks for, loaded; then the selection.
     const Selection& settle(const LodView& view) {
@@ -287,7 +288,7 @@ TEST_F(NestedLodTest, DrawsComeNearToFar) {
 }
 
 TEST_F(NestedLodTest, ASteadyViewAllocatesNothingAndMakesNoChoice) {
-    Flight flight(open(), true);
+    Flight flight(open(), true, true);
     Stand stand{.above_m = 2000.0};
     flight.settle(look_from(stand, 0.25, 0.025));
     for (int i = 0; i < 100; ++i) {
