@@ -181,7 +181,7 @@ std::uint64_t TerrainScene::load_all(const View& view) {
 
 tl::expected<std::unique_ptr<Scene>, std::string> Scene::create(
     std::shared_ptr<const terrain::Database> database, const SceneOptions& options) {
-    auto method = terrain::make_lod_method(options.lod_method);
+    auto method = terrain::make_lod_method(options.lod_method, options.horizon_culling);
     if (!method)
         return tl::unexpected(fmt::format("no LOD method is called '{}'; there is '{}'", options.lod_method,
                                           fmt::join(terrain::lod_method_names(), "', '")));
@@ -195,6 +195,7 @@ tl::expected<std::unique_ptr<Scene>, std::string> Scene::create(
     if (!sky) return tl::unexpected(sky.error());
     auto pager = terrain::Pager::create(std::move(database), {.threads = options.loader_threads,
                                                               .mesh = method->mesh_kind(),
+                                                              .cell_bounds = options.horizon_culling,
                                                               .cache_bytes = options.block_cache_bytes});
     if (!pager) return tl::unexpected(pager.error());
     return std::make_unique<TerrainScene>(std::move(*pager), std::move(method), std::move(*terrain),

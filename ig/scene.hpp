@@ -23,9 +23,10 @@ namespace eyepoint::ig {
 
 struct SceneOptions {
     std::string lod_method = "nested";  ///< see terrain::lod_method_names()
-    double tau_px = 1.0;                 ///< tolerance, pixels
+    double tau_px = 1.0;                ///< tolerance, pixels
     double slack = 0.1;  ///< s as a share of tau: what a choice of level once made may exceed tau by
     bool morph = true;   ///< vertices slide from level to level; otherwise they jump
+    bool horizon_culling = false;  ///< leave out what nearer terrain hides: the same picture; nested alone
     Shading shading = Shading::Automatic;
     Show show = Show::Terrain;
     double visibility_m = 100000.0;   ///< meteorological: contrast 2% at this distance, at sea level

@@ -175,6 +175,7 @@ struct EdgeLow {
         for (std::size_t i = 0; i < scratch.size(); ++i) {
             for (std::size_t j = i; j < scratch.size(); ++j) {
                 const glm::vec2 &p = scratch[i], &q = scratch[j];
+                if (most(p.y, q.y) <= drop) continue;
                 if (std::abs(p.x) <= margin_m) drop = most(drop, p.y);
                 if (std::abs(q.x) <= margin_m) drop = most(drop, q.y);
                 if (p.x * q.x >= 0.0F) continue;

@@ -54,6 +54,8 @@ struct ProjectedTops {
 namespace {
 
 constexpr float kBehind = 1e9F;
+/// The farthest corner of what the near plane cuts off, in a view that has a picture, by its distance.
+constexpr double kNears = 2.0;
 constexpr std::uint8_t kNoList = 255;
 
 /// The sides and tops of boxes, in steps of the block's CellBoxes. Boxes without bounds have none, `bounded`
@@ -314,8 +316,6 @@ struct HorizonCulling::Frame {
 
     /// Whether the near plane may cut a block, or the eye be below it.
     [[nodiscard]] bool touches(const BlockDraw& draw) const {
-        constexpr double kNears =
-            2.0;  // farthest corner of what the near plane cuts off, in a view that has a picture
         const double reach_m = kNears * near_m;
         const Block& block = *draw.node->block;
         const double drawn_off_m = level_error_m(block.first_level);
@@ -344,7 +344,8 @@ Selection HorizonCulling::cull(const LodView& view, double eye_above_ground_m, S
         return selection;
     }
     const auto upright = upright_view(view);
-    if (!upright || !(eye_above_ground_m > 0.0)) return selection;
+    // What is drawn beneath the eye is off by far less than a tenth of its distance.
+    if (!upright || !(0.9 * eye_above_ground_m > kNears * view.near_m)) return selection;
     const Frame frame{*upright, glm::transpose(upright->axes),
                       level_scale(view.tau_px + view.slack_px, view.kappa_px), view.near_m};
     for (const BlockDraw& draw : selection.draws) {

@@ -24,10 +24,10 @@ struct ProjectedNodes;
 class HorizonCulling {
   public:
     /// selection: near to far, a block's draws in a row, each of whole cells of a level's list.
-    /// eye_above_ground_m: height of the eye above the full-resolution surface. Draws come back in the same
-    /// order, a block's visible cells in as few draws as they have runs of one level; short gaps between runs
-    /// are drawn. `triangles_hidden` counts those left out because terrain hides them; cells outside the view
-    /// are left out too, uncounted.
+    /// eye_above_ground_m: the eye is at least so high above the full-resolution surface. Draws come back in
+    /// the same order, a block's visible cells in as few draws as they have runs of one level; short gaps
+    /// between runs are drawn. `triangles_hidden` counts those left out because terrain hides them; cells
+    /// outside the view are left out too, uncounted.
     [[nodiscard]] Selection cull(const LodView& view, double eye_above_ground_m, Selection selection);
 
   private:

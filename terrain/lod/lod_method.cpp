@@ -11,8 +11,8 @@ constexpr std::array<std::string_view, 2> kNames{"nested", "regular"};
 
 std::span<const std::string_view> lod_method_names() { return kNames; }
 
-std::unique_ptr<LodMethod> make_lod_method(std::string_view name) {
-    if (name == kNames[0]) return std::make_unique<NestedLod>();
+std::unique_ptr<LodMethod> make_lod_method(std::string_view name, bool cull) {
+    if (name == kNames[0]) return std::make_unique<NestedLod>(true, cull);
     if (name == kNames[1]) return std::make_unique<RegularLod>();
     return nullptr;
 }

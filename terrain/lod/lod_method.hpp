@@ -76,7 +76,8 @@ class LodMethod {
 
 /// Names that make_lod_method knows.
 [[nodiscard]] std::span<const std::string_view> lod_method_names();
-/// nullptr for an unknown name.
-[[nodiscard]] std::unique_ptr<LodMethod> make_lod_method(std::string_view name);
+/// nullptr for an unknown name. cull: leave out what nearer terrain hides; nested alone, and it takes blocks
+/// with bounds (PagerOptions::cell_bounds).
+[[nodiscard]] std::unique_ptr<LodMethod> make_lod_method(std::string_view name, bool cull = false);
 
 }  // namespace eyepoint::terrain

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "terrain/geodesy/earth.hpp"
+#include "terrain/lod/eye_height.hpp"
 #include "terrain/lod/nested_floors.hpp"
 #include "terrain/lod/nested_motion.hpp"
 #include "terrain/lod/planet_horizon.hpp"
@@ -50,17 +51,6 @@ Distances distances_m(double scale) {
 double nearest_hidden_m(const Ecef& eye, double lowest_m) {
     const double radius_m = kPolarRadiusM + std::min(lowest_m, 0.0), eye_m = glm::length(eye);
     return std::sqrt(std::max(eye_m * eye_m - radius_m * radius_m, 0.0));
-}
-
-/// Height of a point above the lowest terrain of the deepest known tile beneath it.
-double eye_above_lowest_m(TileTree& tree, const Ecef& eye) {
-    const Geodetic place = to_geodetic(eye);
-    const TileNode* node = &tree.roots()[tile_at(place.latitude_deg, place.longitude_deg, 0).x];
-    while (node->children) {
-        const TileId below = tile_at(place.latitude_deg, place.longitude_deg, node->tile.depth + 1);
-        node = &(*node->children)[static_cast<std::size_t>(quadrant(below))];
-    }
-    return place.height.metres() - double{node->info.height_min_m};
 }
 
 }  // namespace
@@ -152,7 +142,8 @@ const Selection& NestedLod::select(const LodView& view, TileTree& tree, std::uin
     if (!starved_.empty()) spread_floors(selection_.draws, starved_, tree, frame_number);
     selection_.triangles_hidden = 0;
     if (cut_) selection_ = cutting_.cut(view, sides_, std::move(selection_));
-    if (cull_) selection_ = culling_.cull(view, eye_above_lowest_m(tree, view.eye), std::move(selection_));
+    if (cull_)
+        selection_ = culling_.cull(view, least_height_above_ground_m(tree, view.eye), std::move(selection_));
     return selection_;
 }
 

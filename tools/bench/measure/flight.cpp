@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "terrain/lod/nested.hpp"
+#include "terrain/lod/lod_method.hpp"
 
 namespace eyepoint::tools {
 
@@ -18,17 +18,11 @@ double thread_cpu_ns() {
     return static_cast<double>(now.tv_sec) * 1e9 + static_cast<double>(now.tv_nsec);
 }
 
-std::unique_ptr<terrain::LodMethod> make_method(const FlightOptions& options) {
-    auto method = terrain::make_lod_method(options.lod_method);
-    if (!method || !options.cull || method->name() != "nested") return method;
-    return std::make_unique<terrain::NestedLod>(true, true);
-}
-
 }  // namespace
 
 tl::expected<std::unique_ptr<LodFlight>, std::string> LodFlight::create(
     std::shared_ptr<const terrain::Database> database, const FlightOptions& options) {
-    auto method = make_method(options);
+    auto method = terrain::make_lod_method(options.lod_method, options.cull);
     if (!method) {
         return tl::unexpected(fmt::format("no LOD method is called '{}'; there is {}", options.lod_method,
                                           fmt::join(terrain::lod_method_names(), ", ")));
