@@ -52,6 +52,7 @@ class Collapse {
         const std::size_t vertices = request.mesh.vertices.size();
         around_.resize(vertices);
         version_.resize(vertices);
+        last_error_m_.resize(vertices);
         used_as_target_.resize(vertices, -1);
         result_.gone_level.assign(vertices, NestedMesh::kStays);
         result_.target.assign(vertices, 0);
@@ -70,17 +71,18 @@ class Collapse {
     CollapseResult run() {
         edges_done_ = level_ = request_.first_level;
         collapse_edges();
-        for (std::size_t v = 0; v < around_.size(); ++v) weigh(static_cast<Vertex>(v));
+        for (std::size_t v = 0; v < around_.size(); ++v) touch(static_cast<Vertex>(v));
         while (level_ < request_.last_level) {
             begin_level();
             edges_done_ = ++level_;
-            for (const Vertex touched : collapse_edges()) weigh(touched);
+            for (const Vertex touched : collapse_edges()) touch(touched);
             collapse_inner(allowed_m(level_));
         }
         for (float more_m = 2.0F * allowed_m(level_); vertices_left() > kMostLeft && more_m < 1e7F;
              more_m *= 2.0F) {
             used_as_target_.assign(used_as_target_.size(), -1);
-            for (std::size_t v = 0; v < around_.size(); ++v) weigh(static_cast<Vertex>(v), more_m);
+            last_error_m_.assign(last_error_m_.size(), 0.0F);
+            for (std::size_t v = 0; v < around_.size(); ++v) touch(static_cast<Vertex>(v));
             collapse_inner(more_m);
         }
         follow_targets();
@@ -239,6 +241,10 @@ class Collapse {
             const Candidate next = queue_.top();
             queue_.pop();
             if (next.version != version_[next.vertex] || gone(next.vertex)) continue;
+            if (next.target == kNone) {
+                weigh(next.vertex, std::max(most_m, allowed_m(request_.last_level)));
+                continue;
+            }
             const Vertex first = request_.waits_for[next.vertex];
             if (used_as_target_[next.vertex] == level_ || (first != next.vertex && !gone(first)) ||
                 (most_m <= allowed_m(level_) && !slides_well(next))) {
@@ -247,17 +253,23 @@ class Collapse {
             }
             const auto touched = ring(next.vertex);
             apply(next.vertex, next.target, level_);
-            for (const Vertex vertex : touched) weigh(vertex);
+            for (const Vertex vertex : touched) touch(vertex);
         }
         for (const Candidate& candidate : later) queue_.push(candidate);
     }
 
-    /// Queues an inner vertex with its best target.
-    void weigh(Vertex v) { weigh(v, allowed_m(request_.last_level)); }
-    void weigh(Vertex v, float most_m) {
+    /// Queues an inner vertex whose triangles have changed, by the error it had: what it is now is found out
+    /// when its turn comes, mostly after some more changes.
+    void touch(Vertex v) {
         if (gone(v) || request_.fates[v].on_edge) return;
-        ++version_[v];
-        if (const Candidate best = best_target(v, most_m, kNone); best.target != v) queue_.push(best);
+        queue_.push({last_error_m_[v], v, kNone, ++version_[v]});
+    }
+
+    /// Queues it with its best target.
+    void weigh(Vertex v, float most_m) {
+        const Candidate best = best_target(v, most_m, kNone);
+        last_error_m_[v] = best.target != v ? best.error_m : 0.0F;  // without a target: soon again
+        if (best.target != v) queue_.push(best);
     }
 
     /// Itself when there is none within the error. New triangles at `excepted` need not outlast the edges'
@@ -435,6 +447,7 @@ class Collapse {
     std::vector<Placed> places_;
     std::vector<std::vector<LaterPlace>> later_places_;
     std::vector<std::uint32_t> version_;
+    std::vector<float> last_error_m_;  ///< by vertex: of its best collapse when it was last weighed
     std::vector<int> used_as_target_;  ///< the level at which
     std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> queue_;
     CollapseResult result_;

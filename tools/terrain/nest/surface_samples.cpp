@@ -116,6 +116,28 @@ float SampledSurface::error_m(const Corner& a, const Corner& b, const Corner& c,
     return flat_ ? greatest<1>(a, b, c, enough_m) : greatest<3>(a, b, c, enough_m);
 }
 
+namespace {
+
+/// A side of a triangle as rows cross it.
+struct Side {
+    double south, north, west, east;
+    double x, y;     ///< one end
+    double x_a_row;  ///< 0 along a row
+};
+
+Side side_between(const Corner& from, const Corner& to) {
+    const double up = to.y - from.y;
+    return {std::min(from.y, to.y),
+            std::max(from.y, to.y),
+            std::min(from.x, to.x),
+            std::max(from.x, to.x),
+            from.x,
+            from.y,
+            std::abs(up) < 1e-9 ? 0.0 : (to.x - from.x) / up};
+}
+
+}  // namespace
+
 template <int kParts>
 float SampledSurface::greatest(const Corner& a, const Corner& b, const Corner& c, float enough_m) const {
     constexpr double kRounding = 1e-7;  // samples on the sides count
@@ -134,20 +156,19 @@ float SampledSurface::greatest(const Corner& a, const Corner& b, const Corner& c
     const int south = std::max(0, static_cast<int>(std::ceil(std::min({a.y, b.y, c.y}) - kRounding)));
     const int north =
         std::min(side_ - 1, static_cast<int>(std::floor(std::max({a.y, b.y, c.y}) + kRounding)));
-    const std::array<const Corner*, 4> around{&a, &b, &c, &a};
+    const std::array<Side, 3> sides{side_between(a, b), side_between(b, c), side_between(c, a)};
     float greatest = 0.0F;
     for (int row = south; row <= north; ++row) {
         double west = 1e30, east = -1e30;
-        for (std::size_t i = 0; i < 3; ++i) {
-            const Corner& from = *around[i];
-            const Corner& to = *around[i + 1];
-            const double low = std::min(from.y, to.y), high = std::max(from.y, to.y);
-            if (row < low - kRounding || row > high + kRounding) continue;
-            const double share =
-                high - low < 1e-9 ? 0.0 : std::clamp((row - from.y) / (to.y - from.y), 0.0, 1.0);
-            const double x = from.x + share * (to.x - from.x);
-            west = std::min({west, x, high - low < 1e-9 ? to.x : x});
-            east = std::max({east, x, high - low < 1e-9 ? to.x : x});
+        for (const Side& side : sides) {
+            if (row < side.south - kRounding || row > side.north + kRounding) continue;
+            const double x = side.x + side.x_a_row * (row - side.y);
+            west = std::min(west, std::max(x, side.west));
+            east = std::max(east, std::min(x, side.east));
+            if (side.x_a_row == 0.0) {  // along the row, or straight up
+                west = std::min(west, side.west);
+                east = std::max(east, side.east);
+            }
         }
         const int first = std::max(0, static_cast<int>(std::ceil(west - kRounding)));
         const int last = std::min(side_ - 1, static_cast<int>(std::floor(east + kRounding)));
