@@ -69,6 +69,11 @@ struct NestedLod::Frame {
     double metres_a_texel_slack;  ///< the same, of a choice once made
 
     /// The sides of the view that may cut a tile, or nothing when it is outside.
+    /// Where the level asked for is beyond its tile's last, a vertex slides on to its parent's vertices:
+    /// triangles reach over the tile's box by up to its size. What of that is beside the view, cell_cut.hpp
+    /// leaves out.
+    static constexpr double kSlide = 3.0;
+
     [[nodiscard]] std::optional<std::uint8_t> sides_cutting(const Quad& quad, std::size_t lane,
                                                             const glm::dvec3& middle,
                                                             std::uint8_t planes) const {
@@ -76,13 +81,14 @@ struct NestedLod::Frame {
             if ((planes >> side & 1U) == 0) continue;
             const glm::dvec3& normal = view.sides[side];
             const double inward_m = glm::dot(normal, middle);
-            if (std::abs(inward_m) < quad.radius_m[lane]) {
+            if (std::abs(inward_m) < kSlide * quad.radius_m[lane]) {
                 double reach_m = 0.0;
                 for (std::size_t axis = 0; axis < 9; axis += 3) {
                     reach_m +=
                         std::abs(normal.x * quad.half_m[axis][lane] + normal.y * quad.half_m[axis + 1][lane] +
                                  normal.z * quad.half_m[axis + 2][lane]);
                 }
+                reach_m *= kSlide;
                 if (inward_m < -reach_m) return std::nullopt;
                 if (inward_m < reach_m) continue;
             } else if (inward_m < 0.0) {
@@ -96,7 +102,8 @@ struct NestedLod::Frame {
     [[nodiscard]] bool behind_horizon(const Quad& quad, std::size_t lane, double middle_m2) const {
         const double surely_seen_m = nearest_hidden_m + quad.radius_m[lane];
         if (middle_m2 < surely_seen_m * surely_seen_m) return false;
-        return horizon.hides(quad.nodes[lane].bounds);
+        const TileNode& node = quad.nodes[lane];
+        return horizon.hides(node.parent != nullptr ? node.parent->bounds : node.bounds);
     }
 };
 

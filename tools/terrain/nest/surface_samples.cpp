@@ -13,8 +13,9 @@ using namespace terrain;
 
 namespace {
 
-/// Every second sample; what the left out ones deviate from the middle of their neighbours goes to those.
-HeightSamples thinned(const HeightSamples& fine) {
+/// Every second sample; what the left out ones deviate from the middle of their neighbours goes to those, or,
+/// where it is more than `most_between_m`, they become lone ones.
+HeightSamples thinned(const HeightSamples& fine, float most_between_m) {
     HeightSamples coarse;
     coarse.side = (fine.side + 1) / 2;
     coarse.heights_m.resize(static_cast<std::size_t>(coarse.side) * static_cast<std::size_t>(coarse.side));
@@ -33,10 +34,30 @@ HeightSamples thinned(const HeightSamples& fine) {
                                         fine.heights_m[fine.at(row + odd_row, column + odd_column)]) /
                                        2.0F;
                 apart_m += std::abs(height_m - middle_m);
+                if (apart_m > most_between_m) {
+                    coarse.lone.push_back({column / 2.0, row / 2.0, height_m});
+                    continue;
+                }
             }
             coarse.between_m[low] = std::max(coarse.between_m[low], apart_m);
             coarse.between_m[high] = std::max(coarse.between_m[high], apart_m);
         }
+    }
+    for (const LoneSample& sample : fine.lone) {
+        const LoneSample place{sample.x / 2.0, sample.y / 2.0, sample.height_m};
+        const auto row = static_cast<int>(std::min(place.y, coarse.side - 2.0));
+        const auto column = static_cast<int>(std::min(place.x, coarse.side - 2.0));
+        const auto height_m = [&](int r, int c) { return coarse.heights_m[coarse.at(r, c)]; };
+        const auto [low, high] = std::minmax({height_m(row, column), height_m(row, column + 1),
+                                              height_m(row + 1, column), height_m(row + 1, column + 1)});
+        const float apart_m = std::max(high - sample.height_m, sample.height_m - low);
+        if (apart_m > most_between_m) {
+            coarse.lone.push_back(place);
+            continue;
+        }
+        for (const std::size_t at : {coarse.at(row, column), coarse.at(row, column + 1),
+                                     coarse.at(row + 1, column), coarse.at(row + 1, column + 1)})
+            coarse.between_m[at] = std::max(coarse.between_m[at], apart_m);
     }
     return coarse;
 }
@@ -53,6 +74,8 @@ HeightSamples doubled(const HeightSamples& coarse) {
             fine.between_m.push_back(std::max(coarse.between_m[low], coarse.between_m[high]));
         }
     }
+    for (const LoneSample& sample : coarse.lone)
+        fine.lone.push_back({sample.x * 2.0, sample.y * 2.0, sample.height_m});
     return fine;
 }
 
@@ -76,10 +99,10 @@ HeightSamples HeightSamples::join(const std::array<HeightSamples, 4>& children, 
                 whole.between_m[to] = std::max(whole.between_m[to], part.between_m[from]);
             }
         }
+        for (const LoneSample& sample : part.lone)
+            whole.lone.push_back({sample.x + west, sample.y + south, sample.height_m});
     }
-    if (whole.side > kMostSamples) whole = thinned(whole);
-    for (float& between_m : whole.between_m) between_m = std::min(between_m, most_between_m);
-    return whole;
+    return whole.side > kMostSamples ? thinned(whole, most_between_m) : whole;
 }
 
 SampledSurface::SampledSurface(TileId tile, const HeightSamples& samples)
@@ -102,6 +125,51 @@ SampledSurface::SampledSurface(TileId tile, const HeightSamples& samples)
                 positions_m_[part][at] = position[part];
         }
     }
+    lone_rows_ = keep_lone(tile, samples);
+}
+
+std::vector<std::size_t> SampledSurface::keep_lone(TileId tile, const HeightSamples& samples) {
+    std::vector<LoneSample> lone = samples.lone;
+    const auto row_of = [](const LoneSample& sample) { return static_cast<std::size_t>(sample.y); };
+    std::sort(lone.begin(), lone.end(),
+              [&](const LoneSample& a, const LoneSample& b) { return row_of(a) < row_of(b); });
+    const GeographicExtent sides = extent(tile);
+    const double spacing_deg = tile_side_deg(tile.depth) / (side_ - 1);
+    std::vector<std::size_t> rows(static_cast<std::size_t>(side_) + 1, 0);
+    for (const LoneSample& sample : lone) {
+        lone_.push_back({sample.x, sample.y,
+                         position_m(sides.south_deg + sample.y * spacing_deg,
+                                    sides.west_deg + sample.x * spacing_deg, sample.height_m)});
+        ++rows[row_of(sample) + 1];
+    }
+    for (std::size_t row = 1; row < rows.size(); ++row) rows[row] += rows[row - 1];
+    return rows;
+}
+
+float SampledSurface::lone_error_m(const std::array<const Corner*, 3>& corners, double area) const {
+    const auto& [a, b, c] = corners;
+    const auto [low, high] = std::minmax({a->y, b->y, c->y});
+    const auto row_of = [&](double y) {
+        return static_cast<std::size_t>(std::clamp(std::floor(y), 0.0, side_ - 1.0));
+    };
+    float greatest_m = 0.0F;
+    for (std::size_t i = lone_rows_[row_of(low)]; i < lone_rows_[row_of(high) + 1]; ++i) {
+        const Lone& lone = lone_[i];
+        const auto share = [&](const Corner& p, const Corner& q) {
+            return ((q.x - p.x) * (lone.y - p.y) - (q.y - p.y) * (lone.x - p.x)) / area;
+        };
+        const double of_c = share(*a, *b), of_a = share(*b, *c), of_b = share(*c, *a);
+        if (std::min({of_a, of_b, of_c}) < -1e-9) continue;
+        float square = 0.0F;
+        for (std::size_t part = 0; part < (flat_ ? 1U : 3U); ++part) {
+            const double there =
+                of_a * a->position_m[part] + of_b * b->position_m[part] + of_c * c->position_m[part];
+            const float apart = static_cast<float>(there) - lone.position_m[part];
+            square += apart * apart;
+        }
+        greatest_m = std::max(greatest_m, std::sqrt(square));
+    }
+    return greatest_m;
 }
 
 std::array<float, 3> SampledSurface::position_m(double latitude_deg, double longitude_deg,
@@ -113,7 +181,10 @@ std::array<float, 3> SampledSurface::position_m(double latitude_deg, double long
 }
 
 float SampledSurface::error_m(const Corner& a, const Corner& b, const Corner& c, float enough_m) const {
-    return flat_ ? greatest<1>(a, b, c, enough_m) : greatest<3>(a, b, c, enough_m);
+    const float of_grid_m = flat_ ? greatest<1>(a, b, c, enough_m) : greatest<3>(a, b, c, enough_m);
+    if (lone_.empty() || of_grid_m > enough_m) return of_grid_m;
+    const double area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+    return std::max(of_grid_m, lone_error_m({&a, &b, &c}, area));
 }
 
 namespace {

@@ -10,6 +10,13 @@
 
 namespace eyepoint::tools {
 
+/// A post between the samples of a grid: place in units of its samples from the south-west.
+struct LoneSample {
+    double x = 0.0;
+    double y = 0.0;
+    float height_m = 0.0F;
+};
+
 /// Heights at samples a side: rows from south, samples from west. A tile without children has its posts;
 /// others their children's samples, thinned to every second one beyond kMostSamples a side.
 struct HeightSamples {
@@ -18,14 +25,15 @@ struct HeightSamples {
     std::vector<float> heights_m;
     /// How far full-resolution posts that are no samples may lie from the grid of samples around, metres.
     std::vector<float> between_m;
+    /// Posts off the grid that lie farther from it than that: spikes, cliffs.
+    std::vector<LoneSample> lone;
 
     [[nodiscard]] std::size_t at(int row, int column) const {
         return static_cast<std::size_t>(row) * static_cast<std::size_t>(side) +
                static_cast<std::size_t>(column);
     }
     /// Joins four children's samples (south-west, south-east, north-west, north-east), of any sides.
-    /// most_between_m: what `between_m` counts at most. Where the ground is rougher than that between
-    /// samples, no mesh could be made; its error there may be greater than its level's.
+    /// most_between_m: what left out samples may lie from the grid without being kept as lone ones.
     [[nodiscard]] static HeightSamples join(const std::array<HeightSamples, 4>& children,
                                             float most_between_m);
 };
@@ -59,12 +67,22 @@ class SampledSurface {
     template <int kParts>
     [[nodiscard]] float greatest(const Corner& a, const Corner& b, const Corner& c, float enough_m) const;
 
+    [[nodiscard]] std::vector<std::size_t> keep_lone(terrain::TileId tile, const HeightSamples& samples);
+    [[nodiscard]] float lone_error_m(const std::array<const Corner*, 3>& corners, double area) const;
+
     int side_;
     bool flat_;
     terrain::Ecef origin_;
     terrain::Ecef up_;
     std::array<std::vector<float>, 3> positions_m_;
     std::vector<float> between_m_;
+    /// Lone samples, by the row below them: those of row r from lone_rows_[r] to lone_rows_[r + 1].
+    struct Lone {
+        double x, y;
+        std::array<float, 3> position_m;
+    };
+    std::vector<Lone> lone_;
+    std::vector<std::size_t> lone_rows_;
 };
 
 }  // namespace eyepoint::tools
