@@ -161,7 +161,8 @@ void CellCut::cut_block(const Frame& frame, const BlockDraw& draw, unsigned side
     std::uint64_t here = ~std::uint64_t{0};  // this level or a coarser one
     for (int level = draw.level; here != 0; ++level) {
         const std::uint64_t coarser = level < block.last_level ? here & allowing(frame, local, level + 1) : 0;
-        keep(draw, static_cast<std::uint8_t>(level), here & ~coarser, ~outside, selection);
+        keep(draw, static_cast<std::uint8_t>(level), here & ~coarser, ~here | (coarser & ~outside), ~outside,
+             selection);
         here = coarser;
     }
 }
@@ -215,16 +216,16 @@ std::uint64_t CellCut::find_outside(const Frame& frame, const LocalView& local, 
     return outside;
 }
 
-/// A draw for every run of a level's cells that are in view.
-void CellCut::keep(const BlockDraw& draw, std::uint8_t level, std::uint64_t cells, std::uint64_t in_view,
-                   Selection& selection) {
+/// A draw for every run of a level's cells that are in view. No gap is drawn with a cell that the level is
+/// not right for, though it be beside the view (its triangles could come into it), nor with one of another
+/// level that is in view, be it empty at this one.
+void CellCut::keep(const BlockDraw& draw, std::uint8_t level, std::uint64_t cells, std::uint64_t barred,
+                   std::uint64_t in_view, Selection& selection) {
     const Block& block = *draw.node->block;
     const auto& first = block.levels[static_cast<std::size_t>(level - block.first_level)].cell_first;
     Bytes filled;
     for (std::size_t i = 0; i < kCells; ++i)
         filled[i] = static_cast<std::uint8_t>(first[i] != first[i + 1] ? 1 : 0);
-    // Cells of other levels that are in view may not be drawn with a gap, be they empty at this level.
-    const std::uint64_t others = ~cells & in_view;
     for (std::uint64_t left = cells & in_view & bits(filled); left != 0;) {
         const int begin = std::countr_zero(left);
         int end = begin + 1;
@@ -232,7 +233,7 @@ void CellCut::keep(const BlockDraw& draw, std::uint8_t level, std::uint64_t cell
             const int next = std::countr_zero(left);
             const std::uint64_t gap = (std::uint64_t{1} << next) - (std::uint64_t{1} << end);
             const auto from = static_cast<std::size_t>(end), to = static_cast<std::size_t>(next);
-            if ((gap & others) != 0 || first[to] - first[from] >= kGapIndices) break;
+            if ((gap & barred) != 0 || first[to] - first[from] >= kGapIndices) break;
             end = next + 1;
         }
         const std::uint32_t start = first[static_cast<std::size_t>(begin)];

@@ -36,8 +36,8 @@ class CellCut {
     static std::uint64_t allowing(const Frame& frame, const LocalView& local, int level);
     static std::uint64_t find_outside(const Frame& frame, const LocalView& local, const BlockDraw& draw,
                                       unsigned sides);
-    void keep(const BlockDraw& draw, std::uint8_t level, std::uint64_t cells, std::uint64_t in_view,
-              Selection& selection);
+    void keep(const BlockDraw& draw, std::uint8_t level, std::uint64_t cells, std::uint64_t barred,
+              std::uint64_t in_view, Selection& selection);
 
     std::vector<BlockDraw> kept_;
 };
