@@ -42,7 +42,9 @@ struct Placed {
 bool same_place(const Placed& a, const Placed& b) { return a.x == b.x && a.y == b.y; }
 
 bool counterclockwise(const Placed& a, const Placed& b, const Placed& c) {
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) > 0;
+    // Places slid beyond the tile may be far from it: the products need more than 64 bits.
+    __extension__ using Wide = __int128;
+    return Wide{b.x - a.x} * (c.y - a.y) > Wide{b.y - a.y} * (c.x - a.x);
 }
 
 class Collapse {
