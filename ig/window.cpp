@@ -38,8 +38,8 @@ void Window::Destroy::operator()(GLFWwindow* window) const { glfwDestroyWindow(w
 
 tl::expected<Window, std::string> Window::create(const Options& options) {
     Window made;
-    made.library_ = std::make_unique<Library>();
-    if (!made.library_->ready) {
+    made.glfw_ = std::make_unique<Library>();
+    if (!made.glfw_->ready) {
         return tl::unexpected(
             fmt::format("there is no display to open a window on ({}); set DISPLAY, or use --headless "
                         "with --output, --video or --none",

@@ -57,7 +57,7 @@ class Window {
     };
     static void hear_key(GLFWwindow* window, int key, int scancode, int action, int modifiers);
 
-    std::unique_ptr<Library> library_;
+    std::unique_ptr<Library> glfw_;
     std::unique_ptr<Keys> keys_;  ///< where GLFW's callback finds it when the window is moved
     std::unique_ptr<GLFWwindow, Destroy> window_;
     GlIdentity identity_;

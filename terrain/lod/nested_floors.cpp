@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "terrain/lod/tile_edges.hpp"
+#include "terrain/tiling/tile_edges.hpp"
 
 namespace eyepoint::terrain {
 

@@ -8,7 +8,7 @@
 
 #include "terrain/geodesy/earth.hpp"
 #include "terrain/lod/planet_horizon.hpp"
-#include "terrain/lod/tile_edges.hpp"
+#include "terrain/tiling/tile_edges.hpp"
 
 namespace eyepoint::terrain {
 

@@ -15,6 +15,7 @@
 #include "terrain/lod/nested.hpp"
 #include "terrain/lod/nested_motion.hpp"
 #include "tests/support/analytic_terrain.hpp"
+#include "tests/terrain/lod/look.hpp"
 #include "tests/terrain/lod/nested_mesh.hpp"
 #include "tests/terrain/lod/pattern_planet.hpp"
 
@@ -35,17 +36,10 @@ LodView random_view(std::mt19937_64& random) {
     const glm::dmat3 enu = east_north_up(latitude_deg, longitude_deg);
     const glm::dvec3 f = enu * glm::dvec3{std::sin(course) * std::cos(down),
                                           std::cos(course) * std::cos(down), -std::sin(down)};
-    const glm::dvec3 r = glm::normalize(glm::cross(f, enu * glm::dvec3{std::sin(bank), 0.1, std::cos(bank)}));
-    const glm::dvec3 u = glm::cross(r, f);
-    const double right = std::tan(0.35), top = std::tan(0.26);
     const double tau_px = std::exp2(3.0 * unit(random) - 2.0);
-    return {.eye = to_ecef({latitude_deg, longitude_deg, EllipsoidalHeight{above_m}}),
-            .sides = {glm::normalize(r + f * right), glm::normalize(-r + f * right),
-                      glm::normalize(u + f * top), glm::normalize(-u + f * top)},
-            .kappa_px = 480.0 / (2.0 * top),
-            .tau_px = tau_px,
-            .slack_px = 0.2 * unit(random) * tau_px,
-            .near_m = 0.5};
+    return testing::look(to_ecef({latitude_deg, longitude_deg, EllipsoidalHeight{above_m}}), f,
+                         enu * glm::dvec3{std::sin(bank), 0.1, std::cos(bank)}, tau_px,
+                         0.2 * unit(random) * tau_px, {.right = 0.35, .top = 0.26});
 }
 
 glm::dvec3 point(const PointBits& bits) {

@@ -1,8 +1,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdlib>
-#include <new>
 #include <random>
 #include <string>
 
@@ -13,25 +11,10 @@
 #include "terrain/lod/nested.hpp"
 #include "terrain/lod/nested_motion.hpp"
 #include "tests/support/analytic_terrain.hpp"
+#include "tests/terrain/lod/look.hpp"
 #include "tests/terrain/lod/nested_mesh.hpp"
 #include "tests/terrain/lod/pattern_planet.hpp"
-
-namespace {
-/// Made by this thread.
-thread_local std::uint64_t allocations = 0;
-}  // namespace
-
-void* operator new(std::size_t bytes) {
-    ++allocations;
-    if (void* memory = std::malloc(bytes)) return memory;
-    throw std::bad_alloc();
-}
-void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
-    ++allocations;
-    return std::malloc(bytes);
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+#include "tools/bench/allocation_count.hpp"
 
 namespace eyepoint::terrain {
 namespace {
@@ -39,22 +22,8 @@ namespace {
 using testing::count_stacked;
 using testing::drawn_triangles;
 using testing::find_nested_faults;
+using testing::look;
 using testing::NestedFaults;
-
-/// A view volume of 60 by 45 degrees around a direction.
-LodView look(const Ecef& eye, const glm::dvec3& forward, const glm::dvec3& up_hint, double tau_px,
-             double slack_px = 0.0) {
-    const glm::dvec3 f = glm::normalize(forward), r = glm::normalize(glm::cross(f, up_hint)),
-                     u = glm::cross(r, f);
-    const double right = std::tan(0.5235987755982988), top = std::tan(0.39269908169872414);
-    return {.eye = eye,
-            .sides = {glm::normalize(r + f * right), glm::normalize(-r + f * right),
-                      glm::normalize(u + f * top), glm::normalize(-u + f * top)},
-            .kappa_px = 480.0 / (2.0 * top),
-            .tau_px = tau_px,
-            .slack_px = slack_px,
-            .near_m = 0.5};
-}
 
 struct Stand {
     double latitude_deg = 46.5;
@@ -298,9 +267,9 @@ TEST_F(NestedLodTest, ASteadyViewAllocatesNothingAndMakesNoChoice) {
     for (int i = 0; i < 100; ++i) {
         stand.latitude_deg += 1e-9;
         const LodView view = look_from(stand, 0.25, 0.025);
-        const std::uint64_t before = allocations;
+        const std::uint64_t before = tools::heap_allocations();
         const Selection& selection = flight.select(view);
-        ASSERT_EQ(allocations, before);
+        ASSERT_EQ(tools::heap_allocations(), before);
         ASSERT_TRUE(selection.wishes.empty());
         ASSERT_EQ(selection.blocks_chosen, 0U);
         ASSERT_GT(selection.blocks_reused, 10U);

@@ -5,7 +5,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
-#include "terrain/lod/tile_edges.hpp"
+#include "terrain/tiling/tile_edges.hpp"
 
 namespace eyepoint::testing {
 

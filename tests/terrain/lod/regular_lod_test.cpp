@@ -9,27 +9,16 @@
 #include "terrain/pager/pager.hpp"
 #include "tests/support/analytic_terrain.hpp"
 #include "tests/terrain/lod/drawn_mesh.hpp"
+#include "tests/terrain/lod/look.hpp"
 
 namespace eyepoint::terrain {
 namespace {
 
 using testing::AnalyticTerrain;
 using testing::find_faults;
+using testing::look;
 using testing::MeshFaults;
 using testing::ScratchFolder;
-
-/// A view volume of 60 by 45 degrees around a direction.
-LodView look(const Ecef& eye, const glm::dvec3& forward, const glm::dvec3& up_hint, double tau_px) {
-    const glm::dvec3 f = glm::normalize(forward), r = glm::normalize(glm::cross(f, up_hint)),
-                     u = glm::cross(r, f);
-    const double right = std::tan(0.5235987755982988), top = std::tan(0.39269908169872414);
-    return {.eye = eye,
-            .sides = {glm::normalize(r + f * right), glm::normalize(-r + f * right),
-                      glm::normalize(u + f * top), glm::normalize(-u + f * top)},
-            .kappa_px = 480.0 / (2.0 * top),
-            .tau_px = tau_px,
-            .near_m = 0.5};
-}
 
 /// Everything the view asks for, loaded; then the selection.
 class Flight {

@@ -15,6 +15,7 @@
 
 #include "terrain/geodesy/earth.hpp"
 #include "terrain/lod/error_level.hpp"
+#include "terrain/tiling/tile_edges.hpp"
 
 namespace eyepoint::tools {
 
@@ -117,34 +118,6 @@ class LineCollapse {
     std::unordered_set<std::size_t> targets_;  ///< of this level: they stay for it
 };
 
-std::array<int, 2> quadrants_at(Edge edge) {
-    switch (edge) {
-        case Edge::West:
-            return {0, 2};
-        case Edge::East:
-            return {1, 3};
-        case Edge::South:
-            return {0, 1};
-        case Edge::North:
-            return {2, 3};
-    }
-    return {};
-}
-
-Edge opposite(Edge edge) {
-    switch (edge) {
-        case Edge::West:
-            return Edge::East;
-        case Edge::East:
-            return Edge::West;
-        case Edge::South:
-            return Edge::North;
-        case Edge::North:
-            return Edge::South;
-    }
-    return edge;
-}
-
 class LineMaker {
   public:
     LineMaker(const Database& heights, const FirstLevels& levels) : heights_(heights), levels_(levels) {}
@@ -174,13 +147,13 @@ class LineMaker {
                 line.pinned[kBlockCells - 1] = kLastLevel;
             return line;
         }
-        const auto here = quadrants_at(edge), there = quadrants_at(opposite(edge));
+        const auto here = children_at(edge), there = children_at(opposite(edge));
         const int pinned = std::max<int>(levels_.at(tile), beyond ? levels_.at(*beyond) : 0);
         Line whole;
         for (std::size_t half = 0; half < 2; ++half) {
             std::optional<TileId> child_beyond;
-            if (beyond) child_beyond = child(*beyond, there[half]);
-            Line part = build(child(tile, here[half]), edge, child_beyond, pinned_end);
+            if (beyond) child_beyond = child(*beyond, static_cast<int>(there[half]));
+            Line part = build(child(tile, static_cast<int>(here[half])), edge, child_beyond, pinned_end);
             LineCollapse{part}.advance(pinned);
             const auto skip = static_cast<std::ptrdiff_t>(half);  // the middle is in both
             whole.vertices.insert(whole.vertices.end(), part.vertices.begin() + skip, part.vertices.end());
@@ -201,7 +174,8 @@ class LineMaker {
             if (line.vertices[i].at == middle)
                 line.pinned[i] = std::max<int>(line.pinned[i], levels_.at(tile));
         }
-        for (const int quadrant : quadrants_at(edge)) pin_corners(line, child(tile, quadrant), edge);
+        for (const std::size_t quadrant : children_at(edge))
+            pin_corners(line, child(tile, static_cast<int>(quadrant)), edge);
     }
 
     Line posts(TileId tile, Edge edge) {
