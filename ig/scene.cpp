@@ -1,6 +1,7 @@
 #include "ig/scene.hpp"
 
 #include <ctime>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 #include "ig/render/resolve_pass.hpp"
 #include "ig/render/shading_trial.hpp"
 #include "ig/render/sky_pass.hpp"
+#include "ig/render/still_mesh.hpp"
 #include "ig/render/surface_buffer.hpp"
 #include "ig/render/terrain_pass.hpp"
 #include "terrain/lod/lod_method.hpp"
@@ -48,6 +50,8 @@ class TerrainScene final : public Scene {
     void warm_up(const View& view) override;
     FrameStatistics draw(const View& view) override;
     void draw_floor(const View& view) override;
+    void keep_still(const View& view) override;
+    void draw_still(const View& view) override;
     void set_show(Show show) override { options_.show = show; }
     [[nodiscard]] Shading shading() const override { return shading_; }
     std::uint64_t load_all(const View& view) override;
@@ -55,9 +59,11 @@ class TerrainScene final : public Scene {
 
   private:
     [[nodiscard]] const terrain::Selection& select(const View& view);
+    [[nodiscard]] terrain::LodView lod_view_of(const View& view) const;
     void begin(const View& view);
-    [[nodiscard]] bool raster_surface(const View& view);
     void draw_terrain(const View& view, Shading shading);
+    template <typename... Still>
+    [[nodiscard]] bool raster_surface(const View& view, const Still&... still);
     void draw_shown(const View& view, const terrain::Selection& selection);
 
     SceneOptions options_;
@@ -71,13 +77,19 @@ class TerrainScene final : public Scene {
     SkyPass sky_;
     GlBuffer uniforms_;
     std::uint64_t frame_ = 0;
+    const terrain::Selection* drawn_ = nullptr;  ///< the last draw's, until the next choice
+    std::optional<StillMesh> still_;
 };
+
+terrain::LodView TerrainScene::lod_view_of(const View& view) const {
+    return lod_view(view, options_.tau_px, options_.slack * options_.tau_px);
+}
 
 /// Chooses what to draw from the blocks there are and wishes for the missing ones.
 const terrain::Selection& TerrainScene::select(const View& view) {
     ++frame_;
-    const terrain::Selection& selection = method_->select(
-        lod_view(view, options_.tau_px, options_.slack * options_.tau_px), pager_->tree(), frame_);
+    drawn_ = nullptr;
+    const terrain::Selection& selection = method_->select(lod_view_of(view), pager_->tree(), frame_);
     pager_->request(selection.wishes);
     return selection;
 }
@@ -100,9 +112,10 @@ void TerrainScene::begin(const View& view) {
 }
 
 /// The raster pass of deferred shading; false where the target has no depth to share.
-bool TerrainScene::raster_surface(const View& view) {
+template <typename... Still>
+bool TerrainScene::raster_surface(const View& view, const Still&... still) {
     if (!surface_.begin(view.width_px, view.height_px)) return false;
-    terrain_.draw_surface();
+    terrain_.draw_surface(still...);
     surface_.end();
     return true;
 }
@@ -111,7 +124,7 @@ bool TerrainScene::raster_surface(const View& view) {
 void TerrainScene::draw_terrain(const View& view, Shading shading) {
     begin(view);
     if (shading == Shading::Deferred && raster_surface(view)) {
-        resolve_.draw(surface_, terrain_.list(), terrain_.noise());
+        resolve_.draw(surface_, terrain_.terrain(), terrain_.noise());
     } else {
         terrain_.draw();
     }
@@ -140,7 +153,7 @@ void TerrainScene::warm_up(const View& view) {
     if (options_.shading != Shading::Forward && surface_.begin(view.width_px, view.height_px)) {
         terrain_.warm_up(true);
         surface_.end();
-        resolve_.warm_up(surface_, terrain_.list(), terrain_.noise());
+        resolve_.warm_up(surface_, terrain_.terrain(), terrain_.noise());
     }
     sky_.draw();
 }
@@ -153,6 +166,7 @@ FrameStatistics TerrainScene::draw(const View& view) {
 
     FrameStatistics statistics = terrain_.update(selection, frame_);
     draw_shown(view, selection);
+    drawn_ = &selection;
     statistics.selection_cpu_ms = selection_ms;
     statistics.loads_pending = static_cast<std::uint32_t>(pager_->pending());
     statistics.tau_px = options_.tau_px;
@@ -163,6 +177,22 @@ void TerrainScene::draw_floor(const View& view) {
     begin(view);
     terrain_.draw_depth();
     floor_.draw(terrain_.list(), terrain_.noise());
+    if (!options_.sentinel) sky_.draw();
+}
+
+void TerrainScene::keep_still(const View& view) {
+    still_.reset();
+    if (drawn_ == nullptr) return;
+    still_.emplace(*drawn_, terrain_.list(), method_->indices(), lod_view_of(view), options_.morph);
+}
+
+void TerrainScene::draw_still(const View& view) {
+    begin(view);
+    if (still_ && shading_ == Shading::Deferred && raster_surface(view, *still_)) {
+        resolve_.draw(surface_, still_->terrain(), terrain_.noise());
+    } else if (still_) {
+        terrain_.draw(*still_);
+    }
     if (!options_.sentinel) sky_.draw();
 }
 
@@ -185,6 +215,12 @@ tl::expected<std::unique_ptr<Scene>, std::string> Scene::create(
     if (!method)
         return tl::unexpected(fmt::format("no LOD method is called '{}'; there is '{}'", options.lod_method,
                                           fmt::join(terrain::lod_method_names(), "', '")));
+    return create(std::move(database), options, std::move(method));
+}
+
+tl::expected<std::unique_ptr<Scene>, std::string> Scene::create(
+    std::shared_ptr<const terrain::Database> database, const SceneOptions& options,
+    std::unique_ptr<terrain::LodMethod> method) {
     auto terrain = TerrainPass::create(*method);
     if (!terrain) return tl::unexpected(terrain.error());
     auto resolve = ResolvePass::create();

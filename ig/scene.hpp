@@ -17,13 +17,14 @@
 
 namespace eyepoint::terrain {
 class Database;
-}
+class LodMethod;
+}  // namespace eyepoint::terrain
 
 namespace eyepoint::ig {
 
 struct SceneOptions {
     std::string lod_method = "regular";  ///< see terrain::lod_method_names()
-    double tau_px = 2.0;                ///< tolerance, pixels
+    double tau_px = 2.0;                 ///< tolerance, pixels
     double slack = 0.1;  ///< s as a share of tau: what a choice of level once made may exceed tau by
     bool morph = true;   ///< vertices slide from level to level; otherwise they jump
     bool horizon_culling = false;  ///< leave out what nearer terrain hides: the same picture; nested alone
@@ -42,6 +43,10 @@ class Scene {
     /// On failure: one sentence.
     [[nodiscard]] static tl::expected<std::unique_ptr<Scene>, std::string> create(
         std::shared_ptr<const terrain::Database> database, const SceneOptions& options);
+    /// With a method made by the caller; the one that the options name is not looked at.
+    [[nodiscard]] static tl::expected<std::unique_ptr<Scene>, std::string> create(
+        std::shared_ptr<const terrain::Database> database, const SceneOptions& options,
+        std::unique_ptr<terrain::LodMethod> method);
     virtual ~Scene() = default;
 
     /// Draws every program and state pair once, at the view's size, so that no later frame pays for a first
@@ -54,6 +59,12 @@ class Scene {
     /// triangles with depth alone, then the terrain's shader and the sky once a pixel. Not a picture of the
     /// terrain: its depth, but a plain's shading.
     virtual void draw_floor(const View& view) = 0;
+    /// Keeps the last draw()'s triangles, where they were drawn, as one static mesh: for measuring, as it
+    /// takes many frames' time. To be called after a draw() of the same view, before anything else.
+    virtual void keep_still(const View& view) = 0;
+    /// The mesh kept, with the programs and passes of draw() and none of its level of detail: what draw()
+    /// costs more is the price of that. Nothing kept: the sky.
+    virtual void draw_still(const View& view) = 0;
     /// From the next frame on.
     virtual void set_show(Show show) = 0;
     /// The one in force; Automatic until the first frame has chosen.

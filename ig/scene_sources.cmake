@@ -20,6 +20,7 @@ target_sources(eyepoint_ig PRIVATE
     render/shading_trial.cpp
     render/sky_pass.cpp
     render/slot_table.cpp
+    render/still_mesh.cpp
     render/surface_buffer.cpp
     render/terrain_pass.cpp
     recorded_flight.cpp

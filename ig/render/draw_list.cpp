@@ -16,7 +16,6 @@ constexpr int kNoiseDepth = 10;
 constexpr double kMetresPerDegree = 111320.0;
 
 /// Fields of BlockRecord::tree, as in block.glsl.
-constexpr std::uint32_t kNoSlot = 0xffff'ffff;
 constexpr std::uint32_t kQuadrantShift = 8;
 constexpr std::uint32_t kHasFloors = 1U << 16;
 
@@ -131,9 +130,13 @@ DrawList::BlockRecord DrawList::describe(const terrain::TileNode& node, std::uin
     return record;
 }
 
+std::size_t DrawList::features_of(const terrain::BlockDraw& draw, std::uint32_t slot) const {
+    return (draw.node->block->has_water ? kWaterFeature : 0) +
+           (records_[slot].image.x >= 0.0F ? kImageFeature : 0);
+}
+
 void DrawList::add(const terrain::BlockDraw& draw, std::uint32_t slot) {
-    const std::size_t set = (draw.node->block->has_water ? kWaterFeature : 0) +
-                            (records_[slot].image.x >= 0.0F ? kImageFeature : 0);
+    const std::size_t set = features_of(draw, slot);
     const std::uint32_t first_index = nested_ ? blocks_.first_index(slot) : 0;
     features_ |= set;
     all_.add(draw.indices, first_index, slot);

@@ -30,6 +30,15 @@ struct DrawCommands {
 
 class DrawList {
   public:
+    /// std430 layout of BlockRecord in block.glsl.
+    struct BlockRecord {
+        glm::vec4 image;
+        glm::vec4 noise;
+        glm::uvec4 tree;
+    };
+    /// In BlockRecord::tree: no parent.
+    static constexpr std::uint32_t kNoSlot = 0xffff'ffff;
+
     /// nested: draws refer to the blocks' own index lists, and a drawn block's ancestors are there with it,
     /// for the walk of nested.glsl; otherwise draws refer to a list that the caller binds.
     explicit DrawList(bool nested);
@@ -55,14 +64,14 @@ class DrawList {
     [[nodiscard]] std::uint64_t uploaded_blocks() const { return blocks_.uploads(); }
     [[nodiscard]] std::uint64_t uploaded_bytes() const;
 
-  private:
-    /// std430 layout of BlockRecord in block.glsl.
-    struct BlockRecord {
-        glm::vec4 image;
-        glm::vec4 noise;
-        glm::uvec4 tree;
-    };
+    /// Of the last update: the slot of its nth draw, a slot's record, and what set of features a draw needs.
+    [[nodiscard]] std::uint32_t slot(std::size_t draw) const {
+        return static_cast<std::uint32_t>(all_.base_vertices[draw]) / terrain::kBlockVertices;
+    }
+    [[nodiscard]] const BlockRecord& record(std::uint32_t slot) const { return records_[slot]; }
+    [[nodiscard]] std::size_t features_of(const terrain::BlockDraw& draw, std::uint32_t slot) const;
 
+  private:
     [[nodiscard]] std::uint32_t place(const terrain::TileNode& node, std::uint64_t frame);
     [[nodiscard]] BlockRecord describe(const terrain::TileNode& node, std::uint64_t frame);
     void describe_drawn(const terrain::BlockDraw& draw, std::uint32_t slot, std::uint64_t frame);

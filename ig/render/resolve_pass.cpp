@@ -17,11 +17,11 @@ tl::expected<ResolvePass, std::string> ResolvePass::create() {
     return ResolvePass{std::move(programs)};
 }
 
-void ResolvePass::begin(const SurfaceBuffer& surface, const DrawList& list, GLuint noise) const {
+void ResolvePass::begin(const SurfaceBuffer& surface, const DrawnTerrain& terrain, GLuint noise) const {
     glBindVertexArray(no_attributes_.name());
-    glBindTextureUnit(0, list.images().texture());
+    glBindTextureUnit(0, terrain.images);
     glBindTextureUnit(1, noise);
-    glBindTextureUnit(2, list.record_words());
+    glBindTextureUnit(2, terrain.record_words);
     glBindTextureUnit(3, surface.texture());
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);  // the triangle is infinitely far: in front of it is what was drawn
@@ -33,14 +33,14 @@ void ResolvePass::cover(std::size_t features) const {
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void ResolvePass::draw(const SurfaceBuffer& surface, const DrawList& list, GLuint noise) const {
-    begin(surface, list, noise);
-    cover(list.features());
+void ResolvePass::draw(const SurfaceBuffer& surface, const DrawnTerrain& terrain, GLuint noise) const {
+    begin(surface, terrain, noise);
+    cover(terrain.features);
     glDepthMask(GL_TRUE);
 }
 
-void ResolvePass::warm_up(const SurfaceBuffer& surface, const DrawList& list, GLuint noise) const {
-    begin(surface, list, noise);
+void ResolvePass::warm_up(const SurfaceBuffer& surface, const DrawnTerrain& terrain, GLuint noise) const {
+    begin(surface, terrain, noise);
     for (std::size_t set = 0; set < kFeatureSets; ++set) cover(set);
     glDepthMask(GL_TRUE);
 }

@@ -6,7 +6,7 @@
 
 #include <tl/expected.hpp>
 
-#include "ig/render/draw_list.hpp"
+#include "ig/render/drawn_terrain.hpp"
 #include "ig/render/gl_objects.hpp"
 #include "ig/render/surface_buffer.hpp"
 
@@ -18,13 +18,13 @@ class ResolvePass {
 
     /// Shades every pixel whose depth says that something was drawn there, from the surface. Needs the
     /// frame's uniforms bound; leaves depth as it is.
-    void draw(const SurfaceBuffer& surface, const DrawList& list, GLuint noise) const;
+    void draw(const SurfaceBuffer& surface, const DrawnTerrain& terrain, GLuint noise) const;
     /// The same with every program, so that no later frame pays for a first use.
-    void warm_up(const SurfaceBuffer& surface, const DrawList& list, GLuint noise) const;
+    void warm_up(const SurfaceBuffer& surface, const DrawnTerrain& terrain, GLuint noise) const;
 
   private:
     explicit ResolvePass(std::vector<GlProgram> programs) : programs_(std::move(programs)) {}
-    void begin(const SurfaceBuffer& surface, const DrawList& list, GLuint noise) const;
+    void begin(const SurfaceBuffer& surface, const DrawnTerrain& terrain, GLuint noise) const;
     void cover(std::size_t features) const;
 
     std::vector<GlProgram> programs_;  ///< by set of features

@@ -110,22 +110,28 @@ FrameStatistics TerrainPass::update(const terrain::Selection& selection, std::ui
     return statistics;
 }
 
-void TerrainPass::begin() const {
+DrawnTerrain TerrainPass::terrain() const {
     const BlockStore& blocks = list_.block_store();
+    return {blocks.vertex_buffer(), blocks.vertex_words(), nested_ ? blocks.index_buffer() : indices_.name(),
+            list_.record_buffer(),  list_.record_words(),  list_.images().texture(),
+            list_.features()};
+}
+
+void TerrainPass::begin(const DrawnTerrain& terrain) const {
     glBindVertexArray(layout_.name());
-    glVertexArrayVertexBuffer(layout_.name(), 0, blocks.vertex_buffer(), 0, sizeof(terrain::BlockVertex));
-    glVertexArrayElementBuffer(layout_.name(), nested_ ? blocks.index_buffer() : indices_.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, list_.record_buffer());
-    glBindTextureUnit(kImageUnit, list_.images().texture());
+    glVertexArrayVertexBuffer(layout_.name(), 0, terrain.vertices, 0, sizeof(terrain::BlockVertex));
+    glVertexArrayElementBuffer(layout_.name(), terrain.indices);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, terrain.records);
+    glBindTextureUnit(kImageUnit, terrain.images);
     glBindTextureUnit(kNoiseUnit, noise_.name());
-    glBindTextureUnit(kVertexUnit, blocks.vertex_words());
+    glBindTextureUnit(kVertexUnit, terrain.vertex_words);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GREATER);
     glEnable(GL_CULL_FACE);
 }
 
 void TerrainPass::warm_up(bool surface) const {
-    begin();
+    begin(terrain());
     const auto once = [](const GlProgram& program) {
         glUseProgram(program.name());
         glDrawElements(GL_TRIANGLES, 3, GL_UNSIGNED_SHORT, nullptr);
@@ -139,7 +145,7 @@ void TerrainPass::warm_up(bool surface) const {
 }
 
 void TerrainPass::draw() const {
-    begin();
+    begin(terrain());
     for (std::size_t set = 0; set < kFeatureSets; ++set) {
         if (list_.of_features(set).empty()) continue;
         glUseProgram(programs_.shaded[set].name());
@@ -149,14 +155,31 @@ void TerrainPass::draw() const {
 }
 
 void TerrainPass::draw_surface() const {
-    begin();
+    begin(terrain());
     glUseProgram(programs_.others[kSurface].name());
     list_.all().draw();
     glDisable(GL_CULL_FACE);
 }
 
+void TerrainPass::draw(const StillMesh& mesh) const {
+    begin(mesh.terrain());
+    for (std::size_t set = 0; set < kFeatureSets; ++set) {
+        if (!mesh.has_features(set)) continue;
+        glUseProgram(programs_.shaded[set].name());
+        mesh.draw_features(set);
+    }
+    glDisable(GL_CULL_FACE);
+}
+
+void TerrainPass::draw_surface(const StillMesh& mesh) const {
+    begin(mesh.terrain());
+    glUseProgram(programs_.others[kSurface].name());
+    mesh.draw_all();
+    glDisable(GL_CULL_FACE);
+}
+
 void TerrainPass::draw_depth() const {
-    begin();
+    begin(terrain());
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     glUseProgram(programs_.others[kDepth].name());
     list_.all().draw();
@@ -165,7 +188,7 @@ void TerrainPass::draw_depth() const {
 }
 
 void TerrainPass::draw_wireframe() const {
-    begin();
+    begin(terrain());
     glUseProgram(programs_.others[kShown].name());
     glUniform4fv(0, 1, &kPaper.x);
     glEnable(GL_POLYGON_OFFSET_FILL);
@@ -180,7 +203,7 @@ void TerrainPass::draw_wireframe() const {
 }
 
 void TerrainPass::draw_levels(const terrain::Selection& selection) const {
-    begin();
+    begin(terrain());
     glUseProgram(programs_.others[kShown].name());
     const DrawCommands& all = list_.all();
     for (std::size_t i = 0; i < selection.draws.size(); ++i) {

@@ -10,7 +10,9 @@
 
 #include "ig/frame_statistics.hpp"
 #include "ig/render/draw_list.hpp"
+#include "ig/render/drawn_terrain.hpp"
 #include "ig/render/gl_objects.hpp"
+#include "ig/render/still_mesh.hpp"
 #include "terrain/lod/lod_method.hpp"
 
 namespace eyepoint::ig {
@@ -24,11 +26,16 @@ class TerrainPass {
     /// the statistics it returns.
     [[nodiscard]] FrameStatistics update(const terrain::Selection& selection, std::uint64_t frame);
     [[nodiscard]] const DrawList& list() const { return list_; }
+    /// The last update's selection on the card.
+    [[nodiscard]] DrawnTerrain terrain() const;
 
     /// The last update's selection, shaded.
     void draw() const;
     /// What shading needs of it, into the bound SurfaceBuffer.
     void draw_surface() const;
+    /// The same two of a mesh that stands still.
+    void draw(const StillMesh& mesh) const;
+    void draw_surface(const StillMesh& mesh) const;
     /// Its depth alone.
     void draw_depth() const;
     /// One triangle with every program of those, so that no later frame pays for a first use. The target must
@@ -54,7 +61,7 @@ class TerrainPass {
     [[nodiscard]] static tl::expected<Programs, std::string> link(bool nested);
     TerrainPass(Programs programs, std::span<const std::uint16_t> indices, bool nested);
     void describe_vertices() const;
-    void begin() const;
+    void begin(const DrawnTerrain& terrain) const;
 
     Programs programs_;
     bool nested_;

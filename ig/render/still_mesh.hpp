@@ -1,0 +1,51 @@
+/// A frame's triangles as one mesh that never changes: the measure of what level of detail costs.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "ig/render/draw_list.hpp"
+#include "ig/render/drawn_terrain.hpp"
+#include "ig/render/gl_objects.hpp"
+#include "terrain/lod/lod_method.hpp"
+
+namespace eyepoint::ig {
+
+/// One vertex buffer, one index buffer, one draw a program. Vertices have the format of blocks and stand
+/// where the view had them, so that every shader takes them as they are; a block keeps its own vertices,
+/// triangles keep their order. Making one takes many frames' time.
+class StillMesh {
+  public:
+    /// selection: what `list` was last updated with. grid_indices: of a method whose blocks are grids; its
+    /// vertices do not move. view: with the tolerance that vertices move by (tau + slack).
+    StillMesh(const terrain::Selection& selection, const DrawList& list,
+              std::span<const std::uint16_t> grid_indices, const terrain::LodView& view, bool morph);
+
+    [[nodiscard]] DrawnTerrain terrain() const;
+    void draw_all() const;
+    /// Those that need exactly this set of features; nothing where none do.
+    void draw_features(std::size_t set) const;
+    [[nodiscard]] bool has_features(std::size_t set) const { return parts_[set].count > 0; }
+
+  private:
+    /// Of the index buffer, in indices.
+    struct Part {
+        std::size_t first = 0;
+        std::size_t count = 0;
+        void draw() const;
+    };
+
+    GlBuffer vertices_;
+    GlBuffer indices_;
+    GlBuffer records_;
+    GlTexture vertex_words_;
+    GlTexture record_words_;
+    Part all_;
+    std::array<Part, kFeatureSets> parts_;
+    std::size_t features_;
+    GLuint images_;  ///< the list's
+};
+
+}  // namespace eyepoint::ig
