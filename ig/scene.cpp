@@ -53,6 +53,7 @@ class TerrainScene final : public Scene {
     void keep_still(const View& view) override;
     void draw_still(const View& view) override;
     void set_show(Show show) override { options_.show = show; }
+    void set_tau(double tau_px) override { options_.tau_px = tau_px; }
     [[nodiscard]] Shading shading() const override { return shading_; }
     std::uint64_t load_all(const View& view) override;
     std::vector<std::string> take_faults() override { return pager_->take_faults(); }

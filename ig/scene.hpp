@@ -67,6 +67,9 @@ class Scene {
     virtual void draw_still(const View& view) = 0;
     /// From the next frame on.
     virtual void set_show(Show show) = 0;
+    /// Pixels, above 0, from the next frame on; the slack keeps its share of it. Choices of level that are
+    /// still right for the new tolerance are kept.
+    virtual void set_tau(double tau_px) = 0;
     /// The one in force; Automatic until the first frame has chosen.
     [[nodiscard]] virtual Shading shading() const = 0;
     /// Loads, waiting, until nothing that the view asks for is missing (or cannot be read): for tests,
