@@ -1,0 +1,29 @@
+/// What control came to, for people and for programs.
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "tools/bench/control/control_score.hpp"
+
+namespace eyepoint::tools {
+
+/// A flight at one target, with the same flight at the fixed tolerance of equal mean quality.
+struct TargetRun {
+    std::string name;       ///< of the target: "1.5 floors", "60 Hz"
+    double floor_ms = 0.0;  ///< median of the flight at the coarsest tolerance
+    std::vector<ControlledFrame> controlled, fixed;
+    TargetScore control, beside;
+};
+
+/// A table of two columns.
+[[nodiscard]] std::string describe(const TargetRun& run);
+[[nodiscard]] std::string describe(const StepScore& score);
+
+/// Keys with units; frames as arrays of a value each.
+[[nodiscard]] nlohmann::json to_json(const TargetRun& run);
+[[nodiscard]] nlohmann::json to_json(const StepScore& score);
+[[nodiscard]] nlohmann::json to_json(std::span<const ControlledFrame> frames);
+
+}  // namespace eyepoint::tools
