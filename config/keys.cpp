@@ -18,6 +18,8 @@ constexpr std::array kVerticalDatums = {"msl"sv, "ellipsoid"sv};
 constexpr std::array kSwitches = {"off"sv, "on"sv};
 constexpr std::array kShadings = {"forward"sv, "deferred"sv, "automatic"sv};
 constexpr std::array kShows = {"terrain"sv, "wireframe"sv, "levels"sv};
+constexpr std::array kPacings = {"fixed"sv, "free"sv, "host"sv};
+constexpr std::array kDrawTimes = {"always"sv, "on_change"sv};
 
 template <typename Enum>
 constexpr std::span<const std::string_view> names_of() {
@@ -29,6 +31,10 @@ constexpr std::span<const std::string_view> names_of() {
         return kShadings;
     } else if constexpr (std::is_same_v<Enum, Show>) {
         return kShows;
+    } else if constexpr (std::is_same_v<Enum, Pacing>) {
+        return kPacings;
+    } else if constexpr (std::is_same_v<Enum, DrawWhen>) {
+        return kDrawTimes;
     } else {
         static_assert(std::is_same_v<Enum, VerticalDatum>);
         return kVerticalDatums;
@@ -166,6 +172,12 @@ constexpr std::array kKeys = {
            row<kHost, &HostSettings::altitude_datum>(
                "host", "altitude_datum",
                "What the host's altitudes are above: mean sea level (EGM96) or the WGS84 ellipsoid")),
+    choice(
+        kSwitches,
+        row<kHost, &HostSettings::extrapolation>(
+            "host", "extrapolation",
+            "Whether the vehicle is moved on, by its velocities, from its packet's arrival to the time that "
+            "the frame is seen at (docs/frame-timing.md)")),
     number(
         0.0, kDayS,
         row<kHost, &HostSettings::end_after_silence_s>(
@@ -219,6 +231,13 @@ constexpr std::array kKeys = {
             "W and L")),
 
     number(1.0, 1000.0, row<kFrame, &FrameSettings::rate_hz>("frame", "rate_hz", "Frames a second")),
+    choice(kPacings,
+           row<kFrame, &FrameSettings::pacing>(
+               "frame", "pacing",
+               "When frames begin: at rate_hz, each as soon as the last is done, or with each of the host's "
+               "packets")),
+    choice(kDrawTimes, row<kFrame, &FrameSettings::draw>(
+                           "frame", "draw", "Always, or only where the picture would differ from the last")),
     whole(0, 1e12,
           row<kFrame, &FrameSettings::frames>("frame", "frames", "End after so many frames; 0: no end")),
 

@@ -12,6 +12,8 @@ enum class VerticalDatum : std::uint8_t { Msl, Ellipsoid };
 enum class Switch : std::uint8_t { Off, On };
 enum class Shading : std::uint8_t { Forward, Deferred, Automatic };
 enum class Show : std::uint8_t { Terrain, Wireframe, Levels };
+enum class Pacing : std::uint8_t { Fixed, Free, Host };
+enum class DrawWhen : std::uint8_t { Always, OnChange };
 
 struct TerrainSettings {
     std::string database;  ///< folder of the terrain database
@@ -27,7 +29,8 @@ struct HostSettings {
     std::uint16_t port = 5560;        ///< UDP port to listen on
     std::string answer_to;            ///< "HOST:PORT" for CIGI answers; empty: whoever sent last
     VerticalDatum altitude_datum = VerticalDatum::Msl;  ///< what the host's altitudes are above
-    double end_after_silence_s = 0.0;  ///< end this long after the host's last packet; 0: never
+    Switch extrapolation = Switch::On;  ///< whether the vehicle is moved on to the time a frame is seen at
+    double end_after_silence_s = 0.0;   ///< end this long after the host's last packet; 0: never
 };
 
 struct ViewSettings {
@@ -52,7 +55,9 @@ struct RenderSettings {
 };
 
 struct FrameSettings {
-    double rate_hz = 60.0;     ///< 1..1000
+    double rate_hz = 60.0;  ///< 1..1000
+    Pacing pacing = Pacing::Fixed;
+    DrawWhen draw = DrawWhen::Always;
     std::uint64_t frames = 0;  ///< end after so many; 0: no end
 };
 

@@ -59,23 +59,30 @@ void narrow_to_host(View& view, const net::ViewState& host) {
     if (host.near_m && *host.near_m > 0.0) view.near_m = *host.near_m;
 }
 
-const net::EntityState* find_entity(const net::HostState& state, std::uint16_t id) {
-    const auto found = state.entities.find(id);
-    return found == state.entities.end() ? nullptr : &found->second;
+net::ViewState host_view_of(const net::HostState& state, std::uint16_t view) {
+    const auto found = state.views.find(view);
+    return found == state.views.end() ? net::ViewState{} : found->second;
 }
 
 }  // namespace
 
+std::uint16_t viewed_entity(const net::HostState& state, std::uint16_t view) {
+    return host_view_of(state, view).entity_id;
+}
+
 std::optional<Eyepoint> eyepoint_of(const net::HostState& state, const EyepointReading& reading,
                                     PictureSize size) {
-    const auto found = state.views.find(reading.view.cigi_view);
-    const net::ViewState host_view = found == state.views.end() ? net::ViewState{} : found->second;
-    const net::EntityState* entity = find_entity(state, host_view.entity_id);
-    if (entity == nullptr) return std::nullopt;
+    const auto entity = state.entities.find(viewed_entity(state, reading.view.cigi_view));
+    if (entity == state.entities.end()) return std::nullopt;
+    return eyepoint_of(state, entity->second, reading, size);
+}
 
+Eyepoint eyepoint_of(const net::HostState& state, const net::EntityState& entity,
+                     const EyepointReading& reading, PictureSize size) {
+    const net::ViewState host_view = host_view_of(state, reading.view.cigi_view);
     const config::ViewSettings& channel = reading.view;
     const glm::dmat3 body =
-        terrain::body_axes(entity->latitude_deg, entity->longitude_deg, attitude_of(entity->attitude));
+        terrain::body_axes(entity.latitude_deg, entity.longitude_deg, attitude_of(entity.attitude));
     const glm::dmat3 turned =
         terrain::attitude_rotation(attitude_of(host_view.attitude)) *
         terrain::attitude_rotation(attitude_of({channel.yaw_deg, channel.pitch_deg, channel.roll_deg}));
@@ -85,7 +92,7 @@ std::optional<Eyepoint> eyepoint_of(const net::HostState& state, const EyepointR
 
     Eyepoint eyepoint{.view = settings_view(channel, size), .place = {}};
     narrow_to_host(eyepoint.view, host_view);
-    eyepoint.view.eye_ecef = terrain::to_ecef(place_of(*entity, reading)) + body * offset_m;
+    eyepoint.view.eye_ecef = terrain::to_ecef(place_of(entity, reading)) + body * offset_m;
     eyepoint.view.axes = view_axes(body * turned);
     eyepoint.place = terrain::to_geodetic(eyepoint.view.eye_ecef);
     return eyepoint;

@@ -44,6 +44,13 @@ struct EyepointReading {
 [[nodiscard]] std::optional<Eyepoint> eyepoint_of(const net::HostState& state, const EyepointReading& reading,
                                                   PictureSize size);
 
+/// The same with the view's entity elsewhere than the state has it: moved on in time.
+[[nodiscard]] Eyepoint eyepoint_of(const net::HostState& state, const net::EntityState& entity,
+                                   const EyepointReading& reading, PictureSize size);
+
+/// The number of the entity that a view stands on.
+[[nodiscard]] std::uint16_t viewed_entity(const net::HostState& state, std::uint16_t view);
+
 /// A view from a place, level and looking north, with the settings' view volume: before a host has spoken.
 [[nodiscard]] View neutral_view(const terrain::Geodetic& place, const config::ViewSettings& settings,
                                 PictureSize size);

@@ -35,16 +35,21 @@ std::int64_t FrameClock::deadline_ns(std::uint64_t slot) const {
     return start_ns_ + std::llround(static_cast<double>(slot - start_slot_) * period_ns_);
 }
 
+void FrameClock::pass_over(FrameTick& tick, double periods) const {
+    const auto whole = static_cast<std::uint64_t>(periods);
+    tick.missed += whole;
+    tick.slot += whole;
+    tick.deadline_ns = deadline_ns(tick.slot);
+}
+
 FrameTick FrameClock::wait() {
-    FrameTick tick{.slot = next_slot_, .deadline_ns = deadline_ns(next_slot_), .missed = 0};
-    const std::int64_t now_ns = clock_.now_ns();
-    if (now_ns > tick.deadline_ns && tick.slot > start_slot_) {
-        const auto periods_late = std::ceil(static_cast<double>(now_ns - tick.deadline_ns) / period_ns_);
-        tick.missed = static_cast<std::uint64_t>(periods_late);
-        tick.slot += tick.missed;
-        tick.deadline_ns = deadline_ns(tick.slot);
-    }
+    FrameTick tick{.slot = next_slot_, .deadline_ns = deadline_ns(next_slot_)};
+    const auto periods_late = [&] {
+        return static_cast<double>(clock_.now_ns() - tick.deadline_ns) / period_ns_;
+    };
+    if (tick.slot > start_slot_ && periods_late() > 0.0) pass_over(tick, std::ceil(periods_late()));
     clock_.sleep_until(tick.deadline_ns);
+    if (periods_late() >= 1.0) pass_over(tick, std::floor(periods_late()));
     next_slot_ = tick.slot + 1;
     return tick;
 }

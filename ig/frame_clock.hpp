@@ -30,10 +30,12 @@ struct FrameTick {
     std::uint64_t slot = 0;        ///< place on the grid: deadline = start + slot / rate
     std::int64_t deadline_ns = 0;  ///< when the frame was to start
     std::uint64_t missed = 0;      ///< deadlines passed over since the tick before
+    bool on_grid = true;           ///< a deadline; otherwise a packet's arrival
 };
 
 /// Deadlines are start + slot / rate, each computed from the slot, so nothing adds up: no drift. A frame that
 /// is late takes the next deadline still ahead; the ones between are missed and never made up for: no burst.
+/// A process that wakes periods late (it was stopped) begins at once, at the newest deadline passed.
 /// Thread use: one thread.
 class FrameClock {
   public:
@@ -47,6 +49,7 @@ class FrameClock {
 
   private:
     [[nodiscard]] std::int64_t deadline_ns(std::uint64_t slot) const;
+    void pass_over(FrameTick& tick, double periods) const;
 
     Clock& clock_;
     double period_ns_;

@@ -1,6 +1,11 @@
 #include "ig/frame_loop.hpp"
 
+#include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "ig/gpu_fence.hpp"
 #include "ig/process_usage.hpp"
@@ -8,6 +13,12 @@
 namespace eyepoint::ig {
 
 namespace {
+
+constexpr double kNsPerSecond = 1e9;
+/// Between two turns: longer than a slow frame takes.
+constexpr double kStoppedS = 1.0, kStoppedPeriods = 2.5;
+/// How old an eye may be, and how long it is waited for, after a stop.
+constexpr std::int64_t kFreshNs = 100'000'000;
 
 double ms_between(std::int64_t from_ns, std::int64_t to_ns) {
     return static_cast<double>(to_ns - from_ns) * 1e-6;
@@ -31,23 +42,35 @@ FrameLoop::FrameLoop(const config::Settings& settings, Parts parts, FrameBuffer 
       reading_{settings.view, settings.host.altitude_datum, parts.geoid, parts.surface},
       parts_(std::move(parts)),
       frame_buffer_(std::move(frame_buffer)),
-      frame_clock_(parts_.clock, settings.frame.rate_hz),
-      begin_ns_(parts_.clock.now_ns()) {}
+      pacer_(settings.frame.pacing, settings.frame.rate_hz, parts_.clock,
+             [&clock = parts_.clock, &host = parts_.host](std::int64_t until_ns) {
+                 const std::int64_t left_ns = std::max<std::int64_t>(until_ns - clock.now_ns(), 0);
+                 return host.wait_for_datagram(std::chrono::nanoseconds(left_ns));
+             }),
+      host_(settings, parts_.host, parts_.clock, parts_.warn),
+      begin_ns_(parts_.clock.now_ns()),
+      last_turn_ns_(begin_ns_) {}
 
 tl::expected<void, std::string> FrameLoop::run() {
     while (!ended()) {
-        const FrameTick tick = frame_clock_.wait();
+        const FrameTick tick = pacer_.wait();
         const FrameStart start{parts_.clock.now_ns(), process_cpu_ms(), thread_cpu_ms()};
-        hear_host();
-        answer_host();
+        const unsigned applied = host_.hear();
+        missed_ += tick.missed;
+        if (settings_.frame.pacing == config::Pacing::Host && applied > 1) missed_ += applied - 1;
+        notice_stop(start.now_ns);
+        if (tick.on_grid) answer_host();
         if (auto sized = follow_output_size(); !sized) return sized;
-        const auto eyepoint = newest_eye();
-        if (!eyepoint) continue;
+        if (!pacer_.due(applied) || waits_for_fresh_eye(start.now_ns)) continue;
+        const auto eye = host_.eye_at(seen_at_ns(tick), reading_, frame_buffer_.size());
+        if (!eye) continue;
         if (!flying_) {
-            begin_flight(*eyepoint);
+            begin_flight(eye->eyepoint.view);
             continue;
         }
-        if (auto flown = fly(*eyepoint, tick, start); !flown) return flown;
+        if (shown_already(eye->eyepoint.view)) continue;
+        if (auto flown = fly(*eye, tick, start); !flown) return flown;
+        pacer_.drew();
     }
     return parts_.output.finish();
 }
@@ -58,23 +81,29 @@ bool FrameLoop::ended() {
            !parts_.output.keep_going();
 }
 
-bool FrameLoop::host_silent() {
+bool FrameLoop::host_silent() const {
     const double limit_s = settings_.host.end_after_silence_s;
-    return limit_s > 0.0 && parts_.host.state() != nullptr &&
-           seconds_between(last_heard_ns_, parts_.clock.now_ns()) > limit_s;
+    return limit_s > 0.0 && host_.silent_s() > limit_s;
 }
 
-void FrameLoop::hear_host() {
-    const net::PollResult heard = parts_.host.poll();
-    const std::int64_t now_ns = parts_.clock.now_ns();
-    if (heard.applied > 0) last_heard_ns_ = now_ns;
-    const std::string newest = heard.details.empty() ? std::string{} : heard.details.back();
-    if (const auto line = drop_log_.line(parts_.host.counters(), newest, now_ns)) parts_.warn(*line);
+void FrameLoop::notice_stop(std::int64_t now_ns) {
+    const double stopped_s = seconds_between(std::exchange(last_turn_ns_, now_ns), now_ns);
+    if (!flying_ || stopped_s < std::max(kStoppedS, kStoppedPeriods / settings_.frame.rate_hz)) return;
+    fresh_until_ns_ = now_ns + kFreshNs;
+    parts_.warn(
+        fmt::format("no frame could begin for {:.1f} s (was the process stopped?); {} deadlines "
+                    "passed, frames go on with the newest eye",
+                    stopped_s, missed_));
+}
+
+/// The socket's buffer keeps the oldest packets of a stop, not the newest.
+bool FrameLoop::waits_for_fresh_eye(std::int64_t now_ns) const {
+    return now_ns < fresh_until_ns_ && now_ns - host_.arrival_ns() > kFreshNs;
 }
 
 void FrameLoop::answer_host() {
     constexpr double kTicksPerSecond = 1e5;  // CIGI's timestamp counts 10 microseconds
-    const net::HostState* state = parts_.host.state();
+    const net::HostState* state = host_.state();
     net::IgStatus status;
     status.ig_frame = ++ticks_;
     status.mode = state == nullptr ? net::IgMode::Standby : state->commanded_mode;
@@ -95,49 +124,63 @@ tl::expected<void, std::string> FrameLoop::follow_output_size() {
     return {};
 }
 
-std::optional<Eyepoint> FrameLoop::newest_eye() const {
-    const net::HostState* state = parts_.host.state();
-    return state == nullptr ? std::nullopt : eyepoint_of(*state, reading_, frame_buffer_.size());
+std::int64_t FrameLoop::seen_at_ns(const FrameTick& tick) const {
+    if (settings_.frame.pacing != config::Pacing::Fixed)
+        return parts_.clock.now_ns() + std::llround(usual_frame_ns_);
+    return tick.deadline_ns + std::llround(std::max(kNsPerSecond / settings_.frame.rate_hz, usual_frame_ns_));
 }
 
-void FrameLoop::begin_flight(const Eyepoint& first) {
+bool FrameLoop::shown_already(const View& view) {
+    const bool lost = parts_.output.lost_picture();
+    return settings_.frame.draw == config::DrawWhen::OnChange && !lost &&
+           still_picture_.holds(view, parts_.output.wanted_show());
+}
+
+void FrameLoop::begin_flight(const View& first) {
     frame_buffer_.bind();
-    parts_.scene.load_all(first.view);
-    parts_.scene.draw(first.view);
+    parts_.scene.load_all(first);
+    parts_.scene.draw(first);
     (void)wait_for_gpu();
-    frame_clock_.restart();
+    pacer_.restart();
+    last_turn_ns_ = parts_.clock.now_ns();
+    missed_ = 0;
     flying_ = true;
 }
 
-tl::expected<void, std::string> FrameLoop::fly(const Eyepoint& eyepoint, const FrameTick& tick,
+tl::expected<void, std::string> FrameLoop::fly(const TimedEye& eye, const FrameTick& tick,
                                                const FrameStart& start) {
+    constexpr double kShare = 1.0 / 8.0;  // of the newest frame in the usual one
     if (!first_deadline_ns_) first_deadline_ns_ = tick.deadline_ns;
-    auto entry = draw(eyepoint, start);
+    auto entry = draw(eye, start);
     if (!entry) return tl::unexpected(entry.error());
     entry->time_s = seconds_between(*first_deadline_ns_, tick.deadline_ns);
-    entry->missed_deadlines = tick.missed;
+    entry->missed_deadlines = std::exchange(missed_, 0);
 
     const std::int64_t whole_ns = parts_.clock.now_ns();
     if (auto shown = parts_.output.show(frame_buffer_, {entry->frame, tick.slot, entry->time_s}); !shown)
         return shown;
-    entry->output_ms = ms_between(whole_ns, parts_.clock.now_ns());
+    const std::int64_t shown_ns = parts_.clock.now_ns();
+    entry->output_ms = ms_between(whole_ns, shown_ns);
+    usual_frame_ns_ += (static_cast<double>(shown_ns - start.now_ns) - usual_frame_ns_) * kShare;
     return record(*entry);
 }
 
-tl::expected<FrameEntry, std::string> FrameLoop::draw(const Eyepoint& eyepoint, const FrameStart& start) {
-    const net::HostState& state = *parts_.host.state();
+tl::expected<FrameEntry, std::string> FrameLoop::draw(const TimedEye& eye, const FrameStart& start) {
+    const net::HostState& state = *host_.state();
     FrameEntry entry;
     entry.frame = summary_.frames() + 1;
     entry.host_frame = state.host_frame;
     entry.sim_time_s = state.host_time_s;
-    entry.eye = eyepoint.place;
-    entry.new_packet =
-        std::exchange(drawn_arrival_ns_, state.arrival.realtime_ns) != state.arrival.realtime_ns;
+    entry.eye = eye.eyepoint.place;
+    entry.extrapolated_ms = eye.extrapolated_s * 1e3;
+    entry.new_packet = std::exchange(drawn_arrival_ns_, eye.arrival_ns) != eye.arrival_ns;
 
-    if (const auto show = parts_.output.wanted_show()) parts_.scene.set_show(*show);
+    const auto show = parts_.output.wanted_show();
+    if (show) parts_.scene.set_show(*show);
     frame_buffer_.bind();
     const std::int64_t draw_ns = parts_.clock.now_ns();
-    entry.drawn = parts_.scene.draw(eyepoint.view);
+    entry.drawn = parts_.scene.draw(eye.eyepoint.view);
+    still_picture_.drawn(eye.eyepoint.view, show, entry.drawn);
     for (const std::string& fault : parts_.scene.take_faults())
         parts_.warn(fault + "; an ancestor is drawn there");
     if (!wait_for_gpu()) {
@@ -147,7 +190,7 @@ tl::expected<FrameEntry, std::string> FrameLoop::draw(const Eyepoint& eyepoint, 
     }
     const std::int64_t whole_ns = parts_.clock.now_ns();
     entry.gpu_ms = ms_between(draw_ns, whole_ns) - entry.drawn.selection_cpu_ms;
-    entry.arrival_to_complete_ms = ms_between(state.arrival.realtime_ns, parts_.clock.realtime_ns());
+    entry.arrival_to_complete_ms = ms_between(eye.arrival_ns, whole_ns);
     entry.frame_ms = ms_between(start.now_ns, whole_ns);
     entry.cpu_ms = process_cpu_ms() - start.process_cpu_ms;
     entry.frame_thread_cpu_ms = thread_cpu_ms() - start.thread_cpu_ms;

@@ -10,12 +10,14 @@
 #include <tl/expected.hpp>
 
 #include "config/settings.hpp"
-#include "ig/drop_log.hpp"
 #include "ig/eyepoint.hpp"
 #include "ig/frame_buffer.hpp"
 #include "ig/frame_clock.hpp"
 #include "ig/frame_record.hpp"
+#include "ig/heard_host.hpp"
 #include "ig/output/output.hpp"
+#include "ig/pacing/pacer.hpp"
+#include "ig/pacing/still_picture.hpp"
 #include "ig/run_summary.hpp"
 #include "ig/scene.hpp"
 #include "net/host_link.hpp"
@@ -27,8 +29,11 @@ namespace eyepoint::ig {
 ///
 /// Until the host has placed the vehicle nothing is drawn, shown, recorded or counted; only Start Of Frame is
 /// sent. The first eye's terrain is then loaded whole before the first frame, so that no picture shows less
-/// than there is; deadlines passed in that time are not missed ones. From then on every deadline draws the
-/// newest eye, also when the host pauses. Thread use: the thread of the GL context.
+/// than there is; deadlines passed in that time are not missed ones. From then on every turn that the Pacer
+/// calls due draws the newest eye, also when the host pauses; but with frame.draw "on_change" not what the
+/// last frame already shows. Each eye is moved on to the time its frame is seen at: in fixed pacing one
+/// period after its deadline (or a usual frame's time, where that is longer), else a usual frame's time from
+/// now. Thread use: the thread of the GL context.
 class FrameLoop {
   public:
     /// What the loop works with; nothing is owned, all outlive it.
@@ -57,28 +62,33 @@ class FrameLoop {
     struct FrameStart;
 
     [[nodiscard]] bool ended();
-    [[nodiscard]] bool host_silent();
-    void hear_host();
+    [[nodiscard]] bool host_silent() const;
     void answer_host();
+    void notice_stop(std::int64_t now_ns);
+    [[nodiscard]] bool waits_for_fresh_eye(std::int64_t now_ns) const;
     [[nodiscard]] tl::expected<void, std::string> follow_output_size();
-    [[nodiscard]] std::optional<Eyepoint> newest_eye() const;
-    void begin_flight(const Eyepoint& first);
-    [[nodiscard]] tl::expected<void, std::string> fly(const Eyepoint& eyepoint, const FrameTick& tick,
+    [[nodiscard]] std::int64_t seen_at_ns(const FrameTick& tick) const;
+    [[nodiscard]] bool shown_already(const View& view);
+    void begin_flight(const View& first);
+    [[nodiscard]] tl::expected<void, std::string> fly(const TimedEye& eye, const FrameTick& tick,
                                                       const FrameStart& start);
-    [[nodiscard]] tl::expected<FrameEntry, std::string> draw(const Eyepoint& eyepoint,
-                                                             const FrameStart& start);
+    [[nodiscard]] tl::expected<FrameEntry, std::string> draw(const TimedEye& eye, const FrameStart& start);
     [[nodiscard]] tl::expected<void, std::string> record(const FrameEntry& entry);
 
     config::Settings settings_;
     EyepointReading reading_;
     Parts parts_;
     FrameBuffer frame_buffer_;
-    FrameClock frame_clock_;
+    Pacer pacer_;
+    HeardHost host_;
     RunSummary summary_;
-    DropLog drop_log_;
+    StillPicture still_picture_;
     std::uint32_t ticks_ = 0;
     std::int64_t begin_ns_ = 0;
-    std::int64_t last_heard_ns_ = 0;
+    std::int64_t last_turn_ns_ = 0;
+    std::int64_t fresh_until_ns_ = 0;  ///< after a stop: until then only a fresh eye is drawn
+    std::uint64_t missed_ = 0;         ///< since the frame before
+    double usual_frame_ns_ = 0.0;      ///< from its turn until it was shown, a running mean
     std::int64_t drawn_arrival_ns_ = 0;
     bool flying_ = false;
     std::optional<std::int64_t> first_deadline_ns_;

@@ -41,6 +41,7 @@ std::string to_json_line(const FrameEntry& entry) {
                          {"time_s", entry.time_s},
                          {"arrival_to_complete_ms", entry.arrival_to_complete_ms},
                          {"new_packet", entry.new_packet},
+                         {"extrapolated_ms", entry.extrapolated_ms},
                          {"cpu_ms", entry.cpu_ms},
                          {"frame_thread_cpu_ms", entry.frame_thread_cpu_ms},
                          {"gpu_ms", or_null(entry.gpu_ms)},

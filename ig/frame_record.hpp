@@ -34,6 +34,7 @@ struct FrameEntry {
     double time_s = 0.0;               ///< when the frame was to start, since the first
     double arrival_to_complete_ms =
         0.0;                           ///< from the kernel's receipt of the drawn packet to the whole picture
+    double extrapolated_ms = 0.0;      ///< how far the vehicle was moved on from that packet
     bool new_packet = false;           ///< the first frame that draws this packet: its transport delay
     double cpu_ms = 0.0;               ///< CPU of all threads from the frame's start until it was whole
     double frame_thread_cpu_ms = 0.0;  ///< the same of the frame's thread alone

@@ -18,11 +18,12 @@ std::string RunSummary::line(double seconds, const net::SessionCounters& host,
     return fmt::format(
         "{} frames in {:.1f} s ({:.1f} Hz); frame ms p50 {:.2f} p95 {:.2f} p99 {:.2f} max {:.2f}; {} missed "
         "deadlines; "
-        "delay ms p50 {:.2f} p99 {:.2f}; {} packets{}{}; triangles median {:.0f}; peak memory {} MiB",
+        "delay ms p50 {:.2f} p95 {:.2f} p99 {:.2f} max {:.2f}; {} packets{}{}; triangles median {:.0f}; peak "
+        "memory {} MiB",
         frames(), seconds, rate_hz, frame_ms_.percentile(0.50), frame_ms_.percentile(0.95),
         frame_ms_.percentile(0.99), frame_ms_.maximum(), missed_deadlines_, delay_ms_.percentile(0.50),
-        delay_ms_.percentile(0.99), host.datagrams, drops.empty() ? "" : ", ", drops,
-        triangles_.percentile(0.50), peak_bytes >> 20);
+        delay_ms_.percentile(0.95), delay_ms_.percentile(0.99), delay_ms_.maximum(), host.datagrams,
+        drops.empty() ? "" : ", ", drops, triangles_.percentile(0.50), peak_bytes >> 20);
 }
 
 std::string describe_drops(const net::SessionCounters& counters) {

@@ -20,6 +20,8 @@ struct View {
 
     /// kappa: pixels per unit of (metres over metres), on the vertical axis at the picture's centre.
     [[nodiscard]] double pixels_per_radian() const { return height_px / (top - bottom); }
+
+    bool operator==(const View&) const = default;
 };
 
 }  // namespace eyepoint::ig

@@ -1,6 +1,7 @@
 #include "ig/window.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -54,9 +55,10 @@ tl::expected<Window, std::string> Window::create(const Options& options) {
                         "graphics driver, or use --headless with --output, --video or --none",
                         last_glfw_error()));
     }
-    made.keys_ = std::make_unique<Keys>();
-    glfwSetWindowUserPointer(made.window_.get(), made.keys_.get());
+    made.heard_ = std::make_unique<Heard>();
+    glfwSetWindowUserPointer(made.window_.get(), made.heard_.get());
     glfwSetKeyCallback(made.window_.get(), hear_key);
+    glfwSetWindowRefreshCallback(made.window_.get(), hear_damage);
     glfwMakeContextCurrent(made.window_.get());
     glfwSwapInterval(0);
     auto identity = check_current_context();
@@ -77,14 +79,20 @@ bool Window::close_requested() const {
 }
 
 void Window::hear_key(GLFWwindow* window, int key, int, int action, int) {
-    auto& keys = *static_cast<Keys*>(glfwGetWindowUserPointer(window));
+    auto& heard = *static_cast<Heard*>(glfwGetWindowUserPointer(window));
     if (action != GLFW_PRESS) return;
-    if (key == GLFW_KEY_N) keys.show = Show::Terrain;
-    if (key == GLFW_KEY_W) keys.show = Show::Wireframe;
-    if (key == GLFW_KEY_L) keys.show = Show::Levels;
+    if (key == GLFW_KEY_N) heard.show = Show::Terrain;
+    if (key == GLFW_KEY_W) heard.show = Show::Wireframe;
+    if (key == GLFW_KEY_L) heard.show = Show::Levels;
 }
 
-std::optional<Show> Window::wanted_show() const { return keys_->show; }
+void Window::hear_damage(GLFWwindow* window) {
+    static_cast<Heard*>(glfwGetWindowUserPointer(window))->damaged = true;
+}
+
+bool Window::take_damage() { return std::exchange(heard_->damaged, false); }
+
+std::optional<Show> Window::wanted_show() const { return heard_->show; }
 
 void Window::handle_events() { glfwPollEvents(); }
 

@@ -36,6 +36,8 @@ class Window {
     /// What the newest of the keys N (normal), W (wireframe) and L (levels) asked for; none before one was
     /// hit.
     [[nodiscard]] std::optional<Show> wanted_show() const;
+    /// True once after the window's content was lost (uncovered, resized).
+    [[nodiscard]] bool take_damage();
     /// Takes in the keyboard and the window's events; once a frame.
     void handle_events();
     /// Shows what has been drawn into the default framebuffer.
@@ -52,13 +54,16 @@ class Window {
         void operator()(GLFWwindow* window) const;
     };
 
-    struct Keys {
+    /// What the window's callbacks have heard.
+    struct Heard {
         std::optional<Show> show;
+        bool damaged = false;
     };
     static void hear_key(GLFWwindow* window, int key, int scancode, int action, int modifiers);
+    static void hear_damage(GLFWwindow* window);
 
     std::unique_ptr<Library> glfw_;
-    std::unique_ptr<Keys> keys_;  ///< where GLFW's callback finds it when the window is moved
+    std::unique_ptr<Heard> heard_;  ///< where GLFW's callback finds it when the window is moved
     std::unique_ptr<GLFWwindow, Destroy> window_;
     GlIdentity identity_;
 };

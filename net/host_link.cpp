@@ -53,7 +53,7 @@ PollResult HostLink::poll() {
     return result;
 }
 
-PollResult HostLink::wait_and_poll(std::chrono::milliseconds timeout) {
+PollResult HostLink::wait_and_poll(std::chrono::nanoseconds timeout) {
     static_cast<void>(socket_.wait_readable(timeout));
     return poll();
 }

@@ -46,7 +46,11 @@ class HostLink {
     PollResult poll();
 
     /// As poll, but first waits for a datagram at most `timeout`.
-    PollResult wait_and_poll(std::chrono::milliseconds timeout);
+    PollResult wait_and_poll(std::chrono::nanoseconds timeout);
+    /// True when a datagram waits, false when the time has passed or a signal came. Takes nothing.
+    [[nodiscard]] bool wait_for_datagram(std::chrono::nanoseconds timeout) const {
+        return socket_.wait_readable(timeout);
+    }
 
     /// nullptr until a host has spoken validly. Points into the link; valid until the next poll or move.
     [[nodiscard]] const HostState* state() const { return session_.state(); }

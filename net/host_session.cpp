@@ -1,5 +1,6 @@
 #include "net/host_session.hpp"
 
+#include <algorithm>
 #include <numeric>
 #include <utility>
 
@@ -13,6 +14,16 @@ namespace eyepoint::net {
 namespace {
 
 constexpr double kSecondsPerTick = 1.0e-5;
+
+/// A sender that leaves all of them 0 either stands still or does not fill them in.
+std::optional<EntityRates> rates_of(const wire::FgNetFdm& fdm) {
+    const AttitudeDeg& turn = fdm.attitude_rate;
+    const bool moves = std::ranges::any_of(fdm.velocity_ned_mps, [](double speed) { return speed != 0.0; });
+    const bool turns = turn.yaw_deg != 0.0 || turn.pitch_deg != 0.0 || turn.roll_deg != 0.0;
+    if (!moves && !turns) return std::nullopt;
+    return EntityRates{EntityRates::Axes::NorthEastDown, fdm.velocity_ned_mps, EntityRates::Turn::EulerAngles,
+                       turn};
+}
 
 std::optional<WireError> error_of(tl::expected<void, WireError> result) {
     if (result) return std::nullopt;
@@ -69,7 +80,9 @@ Reception HostSession::receive_fgnetfdm(std::span<const std::byte> bytes, Arriva
         return reception;
     }
     begin(Protocol::FgNetFdm);
-    state_.entities[0] = EntityState{fdm->latitude_deg, fdm->longitude_deg, fdm->altitude_m, fdm->attitude};
+    EntityState& ownship = state_.entities[0];
+    ownship = EntityState{fdm->latitude_deg, fdm->longitude_deg, fdm->altitude_m, fdm->attitude};
+    ownship.rates = rates_of(*fdm);
     state_.host_time_s = fdm->utc_s();
     ++state_.host_frame;
     state_.arrival = arrival;
@@ -143,6 +156,9 @@ std::optional<WireError> HostSession::apply_packet(std::uint8_t id, std::span<co
         case wire::CigiPacketId::EntityControl:
             return error_of(
                 wire::decode_entity_control(packet, order).map([this](const auto& c) { apply(c); }));
+        case wire::CigiPacketId::RateControl:
+            return error_of(
+                wire::decode_rate_control(packet, order).map([this](const auto& c) { apply(c); }));
         case wire::CigiPacketId::ViewControl:
             return error_of(
                 wire::decode_view_control(packet, order).map([this](const auto& c) { apply(c); }));
@@ -162,10 +178,19 @@ std::optional<WireError> HostSession::apply_packet(std::uint8_t id, std::span<co
 
 void HostSession::apply(const wire::CigiEntityControl& control) {
     if (control.placed) {
-        state_.entities[control.entity_id] = *control.placed;
+        EntityState& entity = state_.entities[control.entity_id];
+        const auto rates = entity.rates;
+        entity = *control.placed;
+        entity.rates = rates;
     } else {
         state_.entities.erase(control.entity_id);
     }
+}
+
+void HostSession::apply(const wire::CigiRateControl& control) {
+    const auto entity = state_.entities.find(control.entity_id);
+    if (control.of_part || entity == state_.entities.end()) return;
+    entity->second.rates = control.rates;
 }
 
 void HostSession::apply(const wire::CigiViewControl& control) {

@@ -63,6 +63,7 @@ class HostSession {
     std::optional<WireError> obey(const wire::CigiIgControl& control);
     std::optional<WireError> apply_packet(std::uint8_t id, std::span<const std::byte> packet);
     void apply(const wire::CigiEntityControl& control);
+    void apply(const wire::CigiRateControl& control);
     void apply(const wire::CigiViewControl& control);
     tl::expected<void, WireError> apply(const wire::CigiViewDefinition& definition);
     void count(Reception& reception, WireError error);

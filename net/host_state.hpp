@@ -21,6 +21,20 @@ struct AttitudeDeg {
     double yaw_deg = 0.0;
     double pitch_deg = 0.0;
     double roll_deg = 0.0;
+    bool operator==(const AttitudeDeg&) const = default;
+};
+
+/// How an entity moves, as its host states it.
+struct EntityRates {
+    enum class Axes : std::uint8_t { NorthEastDown, Body };
+    enum class Turn : std::uint8_t {
+        EulerAngles,  ///< of yaw, pitch and roll themselves
+        AboutAxes,    ///< yaw about the third of the axes, pitch about the second, roll about the first
+    };
+    Axes axes = Axes::NorthEastDown;
+    std::array<double, 3> velocity_mps{};  ///< along the axes, against the Earth
+    Turn turn = Turn::EulerAngles;
+    AttitudeDeg turn_deg_s;
 };
 
 /// A top-level entity: geodetic WGS84 latitude -90..90, longitude -180..180, altitude above the host's datum.
@@ -33,6 +47,8 @@ struct EntityState {
     /// CIGI's ground clamp: altitude_m is above the terrain surface below the entity, which the IG has to
     /// look up.
     bool above_ground = false;
+    /// Absent where the host has not said; CIGI's stay in force until the host says others.
+    std::optional<EntityRates> rates{};
 };
 
 /// A view as the host has defined and placed it; what it has not said is absent.

@@ -1,6 +1,5 @@
 #include "net/udp_socket.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -117,11 +116,10 @@ tl::expected<std::optional<ReceivedDatagram>, std::string> UdpSocket::receive(
     return datagram;
 }
 
-bool UdpSocket::wait_readable(std::chrono::milliseconds timeout) const {
+bool UdpSocket::wait_readable(std::chrono::nanoseconds timeout) const {
     pollfd wanted{descriptor_, POLLIN, 0};
-    const int wait =
-        timeout.count() < 0 ? -1 : static_cast<int>(std::min<std::int64_t>(timeout.count(), 1 << 30));
-    return ::poll(&wanted, 1, wait) > 0;
+    const timespec wait{timeout.count() / kNanosecondsPerSecond, timeout.count() % kNanosecondsPerSecond};
+    return ::ppoll(&wanted, 1, timeout.count() < 0 ? nullptr : &wait, nullptr) > 0;
 }
 
 tl::expected<void, std::string> UdpSocket::send_to(std::span<const std::byte> bytes,

@@ -43,7 +43,7 @@ class UdpSocket {
         std::span<std::byte> buffer) const;
 
     /// True when a datagram waits, false when the time has passed or a signal came. Negative: without end.
-    [[nodiscard]] bool wait_readable(std::chrono::milliseconds timeout) const;
+    [[nodiscard]] bool wait_readable(std::chrono::nanoseconds timeout) const;
 
     /// Never blocks; a full send buffer is an error like any other.
     [[nodiscard]] tl::expected<void, std::string> send_to(std::span<const std::byte> bytes,

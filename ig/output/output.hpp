@@ -34,6 +34,9 @@ class Output {
     [[nodiscard]] virtual std::optional<PictureSize> wanted_size() const { return std::nullopt; }
     /// What frames are to show from now on, if the output has a say in it.
     [[nodiscard]] virtual std::optional<Show> wanted_show() const { return std::nullopt; }
+    /// True where what was shown has been lost since the last call (a window uncovered) and wants a new
+    /// frame.
+    [[nodiscard]] virtual bool lost_picture() { return false; }
     /// Once a frame, also while there is nothing to show: false when the user asks for the end.
     [[nodiscard]] virtual bool keep_going() { return true; }
 };

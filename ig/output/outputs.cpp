@@ -10,6 +10,9 @@ tl::expected<void, std::string> PictureOutput::show(const FrameBuffer& frame, co
 }
 
 tl::expected<void, std::string> VideoOutput::show(const FrameBuffer& frame, const FrameMoment& moment) {
+    // Frames that are not paced by the grid may share a slot; a video has one picture in each.
+    if (last_slot_ == moment.slot) return {};
+    last_slot_ = moment.slot;
     frame.read(picture_);
     return pipe_.write(picture_, moment.slot);
 }

@@ -39,6 +39,7 @@ class VideoOutput final : public Output {
   private:
     VideoPipe pipe_;
     Picture picture_;
+    std::optional<std::uint64_t> last_slot_;
 };
 
 /// The window; frames follow its size.
@@ -49,6 +50,7 @@ class WindowOutput final : public Output {
     tl::expected<void, std::string> show(const FrameBuffer& frame, const FrameMoment& moment) override;
     std::optional<PictureSize> wanted_size() const override { return window_.size(); }
     std::optional<Show> wanted_show() const override { return window_.wanted_show(); }
+    bool lost_picture() override { return window_.take_damage(); }
     bool keep_going() override;
 
   private:

@@ -137,6 +137,31 @@ tl::expected<CigiEntityControl, WireError> decode_entity_control(std::span<const
     return control;
 }
 
+tl::expected<CigiRateControl, WireError> decode_rate_control(std::span<const std::byte> packet,
+                                                             ByteOrder order) {
+    if (packet.size() < kRateControlBytes) return too_small("Rate Control", packet.size(), kRateControlBytes);
+    const ByteReader reader(packet, order);
+    const std::array<Named, 6> numbers{{{"X rate", reader.f32(8)},
+                                        {"Y rate", reader.f32(12)},
+                                        {"Z rate", reader.f32(16)},
+                                        {"roll rate", reader.f32(20)},
+                                        {"pitch rate", reader.f32(24)},
+                                        {"yaw rate", reader.f32(28)}}};
+    CigiRateControl control;
+    control.entity_id = reader.u16(2);
+    if (auto error = first_not_finite("Rate Control", control.entity_id, numbers)) {
+        return tl::unexpected(std::move(*error));
+    }
+    const auto [x, y, z, roll, pitch, yaw] = numbers;
+    control.of_part = reader.bits(5, 0, 1) != 0;
+    control.rates.axes =
+        reader.bits(5, 1, 1) != 0 ? EntityRates::Axes::Body : EntityRates::Axes::NorthEastDown;
+    control.rates.velocity_mps = {x.value, y.value, z.value};
+    control.rates.turn = EntityRates::Turn::AboutAxes;
+    control.rates.turn_deg_s = {yaw.value, pitch.value, roll.value};
+    return control;
+}
+
 tl::expected<CigiViewControl, WireError> decode_view_control(std::span<const std::byte> packet,
                                                              ByteOrder order) {
     if (packet.size() < kViewControlBytes) return too_small("View Control", packet.size(), kViewControlBytes);

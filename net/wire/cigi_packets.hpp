@@ -23,6 +23,7 @@ namespace eyepoint::net::wire {
 enum class CigiPacketId : std::uint8_t {
     IgControl = 1,
     EntityControl = 2,
+    RateControl = 8,
     ViewControl = 16,
     ViewDefinition = 21,
     StartOfFrame = 101,
@@ -38,6 +39,7 @@ struct CigiDialect {
 inline constexpr std::size_t kIgControlBytes = 24;
 inline constexpr std::size_t kShortIgControlBytes = 16;
 inline constexpr std::size_t kEntityControlBytes = 48;
+inline constexpr std::size_t kRateControlBytes = 32;
 inline constexpr std::size_t kViewControlBytes = 32;
 inline constexpr std::size_t kViewDefinitionBytes = 32;
 
@@ -64,6 +66,14 @@ struct CigiEntityControl {
 };
 [[nodiscard]] tl::expected<CigiEntityControl, WireError> decode_entity_control(
     std::span<const std::byte> packet, ByteOrder order);
+
+struct CigiRateControl {
+    std::uint16_t entity_id = 0;
+    bool of_part = false;  ///< of an articulated part of the entity, not of the entity
+    EntityRates rates;
+};
+[[nodiscard]] tl::expected<CigiRateControl, WireError> decode_rate_control(std::span<const std::byte> packet,
+                                                                           ByteOrder order);
 
 /// What is not enabled is absent, and its bytes are not looked at.
 struct CigiViewControl {

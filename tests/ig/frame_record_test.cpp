@@ -20,6 +20,7 @@ FrameEntry sample_entry() {
     entry.host_frame = 4'000'000'001U;
     entry.sim_time_s = 12.25;
     entry.arrival_to_complete_ms = 21.5;
+    entry.extrapolated_ms = 30.25;
     entry.gpu_ms = 9.75;
     entry.drawn.triangles = 123'456;
     entry.drawn.triangles_hidden = 40'000;
@@ -35,6 +36,7 @@ TEST(FrameRecordLine, HoldsEveryKeyOfTheFormat) {
                                          "sim_time_s",
                                          "time_s",
                                          "arrival_to_complete_ms",
+                                         "extrapolated_ms",
                                          "new_packet",
                                          "cpu_ms",
                                          "gpu_ms",
@@ -68,6 +70,7 @@ TEST(FrameRecordLine, ValuesComeBackAsTheyWere) {
     EXPECT_EQ(line["host_frame"], 4'000'000'001U);
     EXPECT_EQ(line["sim_time_s"], 12.25);
     EXPECT_EQ(line["arrival_to_complete_ms"], 21.5);
+    EXPECT_EQ(line["extrapolated_ms"], 30.25);
     EXPECT_EQ(line["gpu_ms"], 9.75);
     EXPECT_EQ(line["triangles"], 123'456);
     EXPECT_EQ(line["triangles_hidden"], 40'000);

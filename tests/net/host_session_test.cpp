@@ -14,6 +14,7 @@ using testing::Bytes;
 using testing::operator+;
 using testing::entity_control;
 using testing::ig_control;
+using testing::rate_control;
 using testing::view_control;
 using testing::view_definition;
 using wire::ByteOrder;
@@ -55,6 +56,54 @@ TEST(HostSession, FgNetFdmPlacesTheOwnship) {
     EXPECT_NEAR(session.state()->ownship()->latitude_deg, 46.5, 1e-12);
     session.receive(fdm_at(46.6, 2500.0), {});
     EXPECT_EQ(session.state()->host_frame, 2U);
+}
+
+TEST(HostSession, FgNetFdmStatesItsVelocities) {
+    wire::FgNetFdm fdm;
+    fdm.velocity_ned_mps = {30.0, -40.0, 2.0};
+    fdm.attitude_rate = {3.0, -1.0, 10.0};
+    HostSession session;
+    session.receive(wire::encode_fgnetfdm24(fdm), {});
+    const auto& rates = session.state()->ownship()->rates;
+    ASSERT_TRUE(rates.has_value());
+    EXPECT_EQ(rates->axes, EntityRates::Axes::NorthEastDown);
+    EXPECT_EQ(rates->turn, EntityRates::Turn::EulerAngles);
+    EXPECT_NEAR(rates->velocity_mps[1], -40.0, 1e-4);
+    EXPECT_NEAR(rates->turn_deg_s.roll_deg, 10.0, 1e-4);
+    session.receive(fdm_at(46.5, 2500.0), {});
+    EXPECT_FALSE(session.state()->ownship()->rates.has_value()) << "all zero: not filled in";
+}
+
+TEST(HostSession, CigiRatesStayInForceUntilOthersComeOrTheEntityGoes) {
+    HostSession session;
+    session.receive(ig_control({}) + rate_control({.v = {1, 2, 3, 4, 5, 6}}), {});
+    EXPECT_TRUE(session.state()->entities.empty()) << "rates of an entity that is not there";
+    session.receive(ig_control({.host_frame = 2}) + entity_control({}) +
+                        rate_control({.flags = 2, .v = {70, 1, -2, 4, 5, 6}}),
+                    {});
+    session.receive(ig_control({.host_frame = 3}) + entity_control({.latitude = 46.1}), {});
+    const auto& rates = session.state()->ownship()->rates;
+    ASSERT_TRUE(rates.has_value());
+    EXPECT_EQ(rates->axes, EntityRates::Axes::Body);
+    EXPECT_EQ(rates->turn, EntityRates::Turn::AboutAxes);
+    EXPECT_EQ(rates->velocity_mps, (std::array{70.0, 1.0, -2.0}));
+    EXPECT_EQ(rates->turn_deg_s.roll_deg, 4.0);
+    EXPECT_EQ(rates->turn_deg_s.yaw_deg, 6.0);
+    session.receive(ig_control({.host_frame = 4}) + rate_control({.flags = 1, .v = {9, 9, 9, 9, 9, 9}}), {});
+    EXPECT_EQ(session.state()->ownship()->rates->velocity_mps[0], 70.0) << "those of a part";
+    session.receive(ig_control({.host_frame = 5}) + entity_control({.flags = kDestroyed}), {});
+    session.receive(ig_control({.host_frame = 6}) + entity_control({}), {});
+    EXPECT_FALSE(session.state()->ownship()->rates.has_value());
+}
+
+TEST(HostSession, ARateThatIsNotFiniteDropsItsPacketAlone) {
+    HostSession session;
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const auto reception =
+        session.receive(ig_control({}) + entity_control({}) + rate_control({.v = {nan, 0, 0, 0, 0, 0}}), {});
+    EXPECT_EQ(reception.dropped, DropReason::NotFinite);
+    ASSERT_NE(session.state()->ownship(), nullptr);
+    EXPECT_FALSE(session.state()->ownship()->rates.has_value());
 }
 
 TEST(HostSession, TheLastGoodEyeStays) {

@@ -88,6 +88,22 @@ inline Bytes entity_control(const EntityFields& fields, wire::ByteOrder order = 
     return bytes;
 }
 
+struct RateFields {
+    std::uint16_t id = 0;
+    std::uint8_t flags = 0;           ///< of a part in bit 0, body axes in bit 1
+    float v[6] = {0, 0, 0, 0, 0, 0};  ///< x y z roll pitch yaw
+};
+inline Bytes rate_control(const RateFields& fields, wire::ByteOrder order = wire::ByteOrder::Little) {
+    Bytes bytes(32);
+    const wire::ByteWriter writer(bytes, order);
+    writer.u8(0, 8);
+    writer.u8(1, 32);
+    writer.u16(2, fields.id);
+    writer.u8(5, fields.flags);
+    for (std::size_t i = 0; i < 6; ++i) writer.f32(8 + 4 * i, fields.v[i]);
+    return bytes;
+}
+
 struct ViewFields {
     std::uint16_t view = 0;
     std::uint8_t group = 0;
