@@ -16,6 +16,8 @@ constexpr double kBandDeviations = 3.0, kBandMost = 0.06;
 /// Of the way to the goal in log tau, gone in one frame; and the most.
 constexpr double kCoarseningGain = 0.4, kRefiningGain = 0.15;
 constexpr double kMostCoarsening = 0.25, kMostRefining = 0.1;
+/// This near to its goal, in log tau, it goes there at once, so that a bound is reached.
+constexpr double kArrived = 0.005;
 /// Over the target by less is not called unreachable.
 constexpr double kUnreachable = 0.03;
 /// Coarsening that takes off less than this share of what is too much is in vain; once held, it has to be
@@ -121,8 +123,9 @@ void ToleranceController::move(ControlState state, const Outlook& outlook) {
     if (state == ControlState::Coarsest) goal = std::log(target_.tau_max_px);
     if (state == ControlState::Held) goal = std::log(blameless_tau_px_);
     const double way = goal - std::log(tau_px_);
-    const double step = way > 0.0 ? std::min(kCoarseningGain * way, kMostCoarsening)
-                                  : std::max(kRefiningGain * way, -kMostRefining);
+    const double step = std::abs(way) < kArrived ? way
+                        : way > 0.0              ? std::min(kCoarseningGain * way, kMostCoarsening)
+                                                 : std::max(kRefiningGain * way, -kMostRefining);
     tau_px_ = std::clamp(tau_px_ * std::exp(step), target_.tau_min_px, target_.tau_max_px);
 }
 
