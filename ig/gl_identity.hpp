@@ -12,6 +12,8 @@ namespace eyepoint::ig {
 struct GlIdentity {
     std::string renderer;  ///< GL_RENDERER
     std::string version;   ///< GL_VERSION
+
+    bool operator==(const GlIdentity&) const = default;
 };
 
 /// Identity of the current context. On failure (older than OpenGL 4.5, or no GL_ARB_clip_control, which

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include <fmt/format.h>
+#include <xxhash.h>
 
 #include "ig/distribution.hpp"
 #include "ig/egl_context.hpp"
@@ -13,6 +14,7 @@
 #include "ig/output/picture_folder.hpp"
 #include "ig/process_usage.hpp"
 #include "terrain/database/database.hpp"
+#include "tools/bench/regression/gl_census.hpp"
 
 namespace eyepoint::tools {
 
@@ -24,6 +26,7 @@ double monotonic_ms() {
 }
 
 struct Outputs {
+    ig::Picture picture;  ///< reused
     std::optional<ig::PictureFolder> pictures;
     std::optional<ig::FrameRecord> record;
 };
@@ -43,32 +46,85 @@ tl::expected<Outputs, std::string> open_outputs(const BenchOptions& options) {
     return outputs;
 }
 
-ig::FrameEntry draw_frame(ig::Scene& scene, const ig::FlightEye& eye, std::uint64_t number) {
-    ig::FrameEntry entry;
-    entry.frame = number;
-    entry.host_frame = eye.host_frame;
-    entry.time_s = eye.time_s;
-    entry.eye = eye.eyepoint.place;
-    const double cpu_ms = ig::process_cpu_ms(), thread_ms = ig::thread_cpu_ms(), wall_ms = monotonic_ms();
-    entry.drawn = scene.draw(eye.eyepoint.view);
-    (void)ig::wait_for_gpu();
-    entry.frame_ms = monotonic_ms() - wall_ms;
-    entry.cpu_ms = ig::process_cpu_ms() - cpu_ms;
-    entry.frame_thread_cpu_ms = ig::thread_cpu_ms() - thread_ms;
-    return entry;
+/// Draws frames and looks at each from all sides.
+class FrameBench {
+  public:
+    FrameBench(const BenchOptions& options, ig::Scene& scene, const ig::FrameBuffer& frame_buffer)
+        : options_(options), scene_(scene), frame_buffer_(frame_buffer) {}
+
+    [[nodiscard]] BenchFrame draw(const ig::FlightEye& eye, std::uint64_t number) {
+        BenchFrame frame;
+        ig::FrameEntry& entry = frame.entry;
+        entry.frame = number;
+        entry.host_frame = eye.host_frame;
+        entry.time_s = eye.time_s;
+        entry.eye = eye.eyepoint.place;
+        frame_buffer_.bind();
+        draw_timed(eye.eyepoint.view, frame);
+        if (options_.still_every > 0 && (number - 1) % options_.still_every == 0)
+            frame.still_cpu_ms = still_cpu_ms(eye.eyepoint.view);
+        return frame;
+    }
+
+  private:
+    void draw_timed(const ig::View& view, BenchFrame& frame) {
+        ig::FrameEntry& entry = frame.entry;
+        const std::uint64_t allocations = options_.allocations != nullptr ? options_.allocations() : 0;
+        const GlCensus::Count before = census_.count();
+        const double cpu_ms = ig::process_cpu_ms(), thread_ms = ig::thread_cpu_ms(), wall_ms = monotonic_ms();
+        entry.drawn = scene_.draw(view);
+        const double asked_ms = monotonic_ms();
+        const GlCensus::Count after = census_.count();
+        (void)ig::wait_for_gpu();
+        entry.frame_ms = monotonic_ms() - wall_ms;
+        entry.cpu_ms = ig::process_cpu_ms() - cpu_ms;
+        entry.frame_thread_cpu_ms = ig::thread_cpu_ms() - thread_ms;
+        frame.allocations = options_.allocations != nullptr ? options_.allocations() - allocations : 0;
+        frame.outside_gl_ms = asked_ms - wall_ms - (after.in_gl_ms - before.in_gl_ms);
+        frame.gl_calls = after.calls - before.calls;
+        frame.new_state_pairs = after.programs + after.state_pairs - before.programs - before.state_pairs;
+    }
+
+    /// The frame that draw() left, as a static mesh: once to have it on the card, then timed.
+    [[nodiscard]] double still_cpu_ms(const ig::View& view) {
+        scene_.keep_still(view);
+        frame_buffer_.bind();
+        scene_.draw_still(view);
+        (void)ig::wait_for_gpu();
+        const double cpu_ms = ig::process_cpu_ms();
+        scene_.draw_still(view);
+        (void)ig::wait_for_gpu();
+        return ig::process_cpu_ms() - cpu_ms;
+    }
+
+    const BenchOptions& options_;
+    ig::Scene& scene_;
+    const ig::FrameBuffer& frame_buffer_;
+    GlCensus census_;
+};
+
+std::uint64_t hash_of(ig::Picture& picture) {
+    for (std::size_t i = 3; i < picture.rgba.size(); i += ig::Picture::kBytesPerPixel) picture.rgba[i] = 255;
+    return XXH3_64bits(picture.rgba.data(), picture.rgba.size());
 }
 
 tl::expected<void, std::string> put_out(Outputs& outputs, const BenchOptions& options,
-                                        const ig::FrameBuffer& frame_buffer, const ig::FrameEntry& entry) {
+                                        const ig::FrameBuffer& frame_buffer, BenchFrame& frame) {
     if (outputs.record) {
-        if (auto added = outputs.record->add(ig::to_json_line(entry)); !added) return added;
+        if (auto added = outputs.record->add(ig::to_json_line(frame.entry)); !added) return added;
     }
-    if (outputs.pictures && (entry.frame - 1) % options.picture_every == 0) {
-        ig::Picture picture;
-        frame_buffer.read(picture);
-        return outputs.pictures->write(picture, entry.frame);
-    }
+    const bool kept = outputs.pictures && (frame.entry.frame - 1) % options.picture_every == 0;
+    if (!kept && !options.hash_pictures) return {};
+    frame_buffer.read(outputs.picture);
+    if (options.hash_pictures) frame.picture_hash = hash_of(outputs.picture);
+    if (kept) return outputs.pictures->write(outputs.picture, frame.entry.frame);
     return {};
+}
+
+tl::expected<std::unique_ptr<ig::Scene>, std::string> make_scene(
+    const BenchOptions& options, std::shared_ptr<const terrain::Database> database) {
+    if (options.method) return ig::Scene::create(std::move(database), options.scene, options.method());
+    return ig::Scene::create(std::move(database), options.scene);
 }
 
 }  // namespace
@@ -84,10 +140,9 @@ tl::expected<BenchResult, std::string> run_bench(const BenchOptions& options,
     if (!context) return tl::unexpected(context.error());
     auto frame_buffer = ig::FrameBuffer::create(options.size);
     if (!frame_buffer) return tl::unexpected(frame_buffer.error());
-    auto scene = ig::Scene::create(shared, options.scene);
+    auto scene = make_scene(options, shared);
     if (!scene) return tl::unexpected(scene.error());
 
-    BenchResult result{context->identity().renderer, context->identity().version, {}, 0.0, 0};
     if (outputs->record) {
         const ig::RecordHeader header{"bench", context->identity(),     options.size,
                                       0.0,     shared->manifest().name, options.scene.lod_method};
@@ -98,24 +153,27 @@ tl::expected<BenchResult, std::string> run_bench(const BenchOptions& options,
     (*scene)->load_all(eyes.front().eyepoint.view);
     (*scene)->warm_up(eyes.front().eyepoint.view);
     (void)ig::wait_for_gpu();
+    BenchResult result{context->identity(), {}, shared->manifest().name, {}, 0.0, 0};
+    result.frames.reserve(eyes.size());
+    FrameBench bench{options, **scene, *frame_buffer};
     for (const ig::FlightEye& eye : eyes) {
         if (options.complete) (*scene)->load_all(eye.eyepoint.view);
-        frame_buffer->bind();
-        result.frames.push_back(draw_frame(**scene, eye, result.frames.size() + 1));
-        result.wall_s += result.frames.back().frame_ms * 1e-3;
+        result.frames.push_back(bench.draw(eye, result.frames.size() + 1));
+        result.wall_s += result.frames.back().entry.frame_ms * 1e-3;
         if (auto put = put_out(*outputs, options, *frame_buffer, result.frames.back()); !put) {
             return tl::unexpected(put.error());
         }
     }
+    result.shading = (*scene)->shading();
     result.peak_resident_bytes = ig::peak_resident_bytes();
     return result;
 }
 
 std::string describe(const BenchResult& result) {
-    const auto row = [&](const char* name, const std::function<double(const ig::FrameEntry&)>& value) {
+    const auto row = [&](const char* name, const std::function<double(const BenchFrame&)>& value) {
         ig::Distribution distribution;
         double sum = 0.0;
-        for (const ig::FrameEntry& frame : result.frames) {
+        for (const BenchFrame& frame : result.frames) {
             distribution.add(value(frame));
             sum += value(frame);
         }
@@ -125,26 +183,31 @@ std::string describe(const BenchResult& result) {
                            distribution.maximum());
     };
     double cpu_ms = 0.0, selection_ms = 0.0;
-    for (const ig::FrameEntry& frame : result.frames) {
-        cpu_ms += frame.cpu_ms;
-        selection_ms += frame.drawn.selection_cpu_ms;
+    for (const BenchFrame& frame : result.frames) {
+        cpu_ms += frame.entry.cpu_ms;
+        selection_ms += frame.entry.drawn.selection_cpu_ms;
     }
-    std::string text = fmt::format("OpenGL: {} ({})\n", result.gl_renderer, result.gl_version);
+    std::string text = fmt::format("OpenGL: {} ({})\n", result.gl.renderer, result.gl.version);
     text += fmt::format(
         "{} frames in {:.1f} s of drawing: {:.1f} frames a second; peak memory {:.0f} MiB\n\n",
         result.frames.size(), result.wall_s, static_cast<double>(result.frames.size()) / result.wall_s,
         static_cast<double>(result.peak_resident_bytes) / 1048576.0);
     text += fmt::format("{:<26}{:>12}{:>12}{:>12}{:>12}{:>12}\n", "a frame", "mean", "median", "p95", "p99",
                         "max");
-    text += row("frame, wall ms", [](const auto& frame) { return frame.frame_ms; });
-    text += row("frame, process CPU ms", [](const auto& frame) { return frame.cpu_ms; });
-    text += row("LOD selection, CPU ms", [](const auto& frame) { return frame.drawn.selection_cpu_ms; });
-    text += row("triangles", [](const auto& frame) { return static_cast<double>(frame.drawn.triangles); });
-    text += row("draws", [](const auto& frame) { return static_cast<double>(frame.drawn.draws); });
+    text += row("frame, wall ms", [](const auto& frame) { return frame.entry.frame_ms; });
+    text += row("frame, process CPU ms", [](const auto& frame) { return frame.entry.cpu_ms; });
+    text +=
+        row("LOD selection, CPU ms", [](const auto& frame) { return frame.entry.drawn.selection_cpu_ms; });
+    text += row("frame thread outside GL, ms", [](const auto& frame) { return frame.outside_gl_ms; });
+    text += row("allocations", [](const auto& frame) { return static_cast<double>(frame.allocations); });
+    text +=
+        row("triangles", [](const auto& frame) { return static_cast<double>(frame.entry.drawn.triangles); });
+    text += row("draws", [](const auto& frame) { return static_cast<double>(frame.entry.drawn.draws); });
     text += row("blocks tested",
-                [](const auto& frame) { return static_cast<double>(frame.drawn.blocks_tested); });
-    text += row("uploaded KiB",
-                [](const auto& frame) { return static_cast<double>(frame.drawn.bytes_uploaded) / 1024.0; });
+                [](const auto& frame) { return static_cast<double>(frame.entry.drawn.blocks_tested); });
+    text += row("uploaded KiB", [](const auto& frame) {
+        return static_cast<double>(frame.entry.drawn.bytes_uploaded) / 1024.0;
+    });
     text +=
         fmt::format("\nLOD selection takes {:.2f}% of the frames' CPU time\n", 100.0 * selection_ms / cpu_ms);
     return text;

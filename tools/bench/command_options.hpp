@@ -23,6 +23,7 @@ void add_flight_command(CLI::App& program);
 void add_field_command(CLI::App& program);
 void add_measure_command(CLI::App& program);
 void add_goals_command(CLI::App& program);
+void add_compare_command(CLI::App& program);
 void add_control_command(CLI::App& program);
 
 }  // namespace eyepoint::tools

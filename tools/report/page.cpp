@@ -31,15 +31,20 @@ constexpr std::array kSummaryRows = {
     SummaryRow{"frame_ms", "Frame time, ms", 2},
     SummaryRow{"cpu_ms", "CPU of all threads, ms", 2},
     SummaryRow{"gpu_ms", "GPU, ms", 2},
+    SummaryRow{"still_cpu_ms", "CPU of the same triangles as a static mesh, ms", 2},
+    SummaryRow{"price_of_lod", "CPU over that of the static mesh", 3},
     SummaryRow{"selection_ms", "LOD selection, ms", 3},
+    SummaryRow{"outside_gl_ms", "Frame thread outside GL, ms", 3},
     SummaryRow{"transport_delay_ms", "Transport delay, ms", 2},
     SummaryRow{"triangles", "Triangles", 0},
     SummaryRow{"draws", "Draw calls", 0},
     SummaryRow{"blocks_drawn", "Blocks drawn", 0},
     SummaryRow{"blocks_tested", "Blocks tested", 0},
+    SummaryRow{"blocks_reused", "Blocks whose level was kept", 0},
     SummaryRow{"loads_pending", "Loads waiting", 0},
     SummaryRow{"blocks_uploaded", "Blocks uploaded", 0},
     SummaryRow{"bytes_uploaded", "Bytes uploaded", 0},
+    SummaryRow{"allocations", "Heap allocations of the frame thread", 0},
     SummaryRow{"tau_px", "Tolerance, px", 2},
 };
 
@@ -129,7 +134,7 @@ std::string header_facts(const RecordHeader& header) {
     return facts;
 }
 
-std::string run_facts(const FrameColumns& record) {
+std::string run_facts(const FrameColumns& record, const RecordHeader& figures) {
     std::string facts = fact("Frames", grouped(static_cast<double>(record.frames), 0));
     if (const auto* time = record.find("time_s")) {
         const double duration_s = time->back() - time->front();
@@ -144,6 +149,7 @@ std::string run_facts(const FrameColumns& record) {
         for (const double in_frame : *missed) sum += std::isnan(in_frame) ? 0.0 : in_frame;
         facts += fact("Missed deadlines", grouped(sum, 0));
     }
+    for (const auto& [name, value] : figures) facts += fact(name, value);
     return facts;
 }
 
@@ -234,18 +240,19 @@ std::string fill(std::string_view page, std::span<const std::pair<std::string_vi
 }  // namespace
 
 tl::expected<std::string, std::string> report_page(const std::string& title, const FrameColumns& record,
-                                                   std::span<const SmallPicture> pictures) {
-    const auto figures = picture_figures(pictures);
-    if (!figures) return tl::unexpected(figures.error());
+                                                   std::span<const SmallPicture> pictures,
+                                                   const RecordHeader& figures) {
+    const auto shown = picture_figures(pictures);
+    if (!shown) return tl::unexpected(shown.error());
     const std::size_t step = (record.frames + kMostPoints - 1) / kMostPoints;
     const std::array<std::pair<std::string_view, std::string>, 10> parts = {{
         {"title", escaped(title)},
         {"style", std::string(kPageCss)},
-        {"run", run_facts(record)},
+        {"run", run_facts(record, figures)},
         {"machine", header_facts(record.header)},
         {"notes", notes(record, step)},
         {"summary", summary_rows(record)},
-        {"pictures", *figures},
+        {"pictures", *shown},
         {"chart_library", std::string(kChartJs)},
         {"data", plot_data(record, step)},
         {"script", std::string(kPageJs)},

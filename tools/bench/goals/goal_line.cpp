@@ -30,10 +30,14 @@ std::string processor() {
 
 }  // namespace
 
+std::string machine_name() {
+    return fmt::format("{}, {} cores", processor(), std::thread::hardware_concurrency());
+}
+
 std::string describe_machine() {
     double load = 0.0;
     if (::getloadavg(&load, 1) != 1) load = 0.0;
-    return fmt::format("{}, {} cores, load {:.1f}", processor(), std::thread::hardware_concurrency(), load);
+    return fmt::format("{}, load {:.1f}", machine_name(), load);
 }
 
 std::string describe(const GoalLine& line) {

@@ -21,6 +21,8 @@ struct GoalLine {
     [[nodiscard]] bool met() const { return sense == Sense::AtMost ? figure <= target : figure >= target; }
 };
 
+/// Processor and number of cores.
+[[nodiscard]] std::string machine_name();
 /// The machine that goals were measured on, in one line: processor, cores, load.
 [[nodiscard]] std::string describe_machine();
 

@@ -8,9 +8,12 @@
   // key, label, and for the second of two scales: right.
   const plots = [
     { title: "Frame time, ms", series: [["frame_ms", "frame"]] },
-    { title: "CPU and GPU, ms", series: [["cpu_ms", "CPU"], ["gpu_ms", "GPU"], ["selection_ms", "LOD selection"]] },
+    { title: "CPU and GPU, ms", series: [["cpu_ms", "CPU"], ["gpu_ms", "GPU"], ["selection_ms", "LOD selection"],
+      ["still_cpu_ms", "CPU as a static mesh"]] },
+    { title: "CPU over that of the same triangles as a static mesh", series: [["price_of_lod", "price of LOD"]] },
+    { title: "Frame thread outside GL, ms", series: [["outside_gl_ms", "outside GL"], ["allocations", "allocations", "right"]] },
     { title: "Triangles and draw calls", series: [["triangles", "triangles"], ["draws", "draw calls", "right"]] },
-    { title: "Blocks", series: [["blocks_drawn", "drawn"], ["blocks_tested", "tested"]] },
+    { title: "Blocks", series: [["blocks_drawn", "drawn"], ["blocks_tested", "tested"], ["blocks_evaluated", "evaluated"]] },
     { title: "Loading", series: [["loads_pending", "loads waiting"], ["blocks_uploaded", "blocks uploaded"],
       ["bytes_uploaded", "bytes uploaded", "right"]] },
     { title: "Transport delay: packet to picture, ms", series: [["transport_delay_ms", "packet to picture"]] },
