@@ -16,6 +16,7 @@ using namespace std::string_view_literals;
 constexpr std::array kOutputKinds = {"window"sv, "pictures"sv, "video"sv, "none"sv};
 constexpr std::array kVerticalDatums = {"msl"sv, "ellipsoid"sv};
 constexpr std::array kSwitches = {"off"sv, "on"sv};
+constexpr std::array kTauControls = {"off"sv, "on"sv, "automatic"sv};
 constexpr std::array kShadings = {"forward"sv, "deferred"sv, "automatic"sv};
 constexpr std::array kShows = {"terrain"sv, "wireframe"sv, "levels"sv};
 constexpr std::array kPacings = {"fixed"sv, "free"sv, "host"sv};
@@ -27,6 +28,8 @@ constexpr std::span<const std::string_view> names_of() {
         return kOutputKinds;
     } else if constexpr (std::is_same_v<Enum, Switch>) {
         return kSwitches;
+    } else if constexpr (std::is_same_v<Enum, TauControl>) {
+        return kTauControls;
     } else if constexpr (std::is_same_v<Enum, Shading>) {
         return kShadings;
     } else if constexpr (std::is_same_v<Enum, Show>) {
@@ -127,6 +130,7 @@ constexpr std::array kSections = {
     Section{"lod", "How levels of detail follow each other"},
     Section{"render", "How pictures are drawn"},
     Section{"frame", "Frame rate and end of the run"},
+    Section{"control", "Every frame in time: the tolerance moves"},
     Section{"environment", "Air and sun"},
     Section{"output", "Where the frames go"},
 };
@@ -137,6 +141,7 @@ constexpr auto kView = &Settings::view;
 constexpr auto kLod = &Settings::lod;
 constexpr auto kRender = &Settings::render;
 constexpr auto kFrame = &Settings::frame;
+constexpr auto kControl = &Settings::control;
 constexpr auto kEnvironment = &Settings::environment;
 constexpr auto kOutput = &Settings::output;
 
@@ -240,6 +245,23 @@ constexpr std::array kKeys = {
                            "frame", "draw", "Always, or only where the picture would differ from the last")),
     whole(0, 1e12,
           row<kFrame, &FrameSettings::frames>("frame", "frames", "End after so many frames; 0: no end")),
+
+    choice(
+        kTauControls,
+        row<kControl, &ControlSettings::tolerance>(
+            "control", "tolerance",
+            "Whether terrain.tau_px is only where the tolerance begins, and then follows what frames cost; "
+            "automatic: in a window that is not free-running. Otherwise what is drawn does not depend on the "
+            "machine")),
+    number(0.1, 1.0,
+           row<kControl, &ControlSettings::target_share>(
+               "control", "target_share", "Share of a frame's period, 1 / frame.rate_hz, that it may take")),
+    number(0.1, 100.0,
+           row<kControl, &ControlSettings::tau_min_px>("control", "tau_min_px",
+                                                       "Least tolerance that control goes to, pixels")),
+    number(0.1, 100.0,
+           row<kControl, &ControlSettings::tau_max_px>("control", "tau_max_px",
+                                                       "Greatest tolerance that control goes to, pixels")),
 
     number(100.0, 1e6,
            row<kEnvironment, &EnvironmentSettings::visibility_m>("environment", "visibility_m",

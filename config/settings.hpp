@@ -10,6 +10,7 @@ namespace eyepoint::config {
 enum class OutputKind : std::uint8_t { Window, Pictures, Video, None };
 enum class VerticalDatum : std::uint8_t { Msl, Ellipsoid };
 enum class Switch : std::uint8_t { Off, On };
+enum class TauControl : std::uint8_t { Off, On, Automatic };
 enum class Shading : std::uint8_t { Forward, Deferred, Automatic };
 enum class Show : std::uint8_t { Terrain, Wireframe, Levels };
 enum class Pacing : std::uint8_t { Fixed, Free, Host };
@@ -61,6 +62,13 @@ struct FrameSettings {
     std::uint64_t frames = 0;  ///< end after so many; 0: no end
 };
 
+struct ControlSettings {
+    TauControl tolerance = TauControl::Automatic;  ///< whether tau moves to keep frames in time
+    double target_share = 0.85;                    ///< of a frame's period, that it may take, 0.1..1
+    double tau_min_px = 0.5;                       ///< 0.1..100, at most tau_max_px
+    double tau_max_px = 16.0;                      ///< 0.1..100
+};
+
 struct EnvironmentSettings {
     double visibility_m = 100000.0;   ///< 100..1000000
     double sun_azimuth_deg = 150.0;   ///< 0..360 from true north
@@ -81,6 +89,7 @@ struct Settings {
     LodSettings lod;
     RenderSettings render;
     FrameSettings frame;
+    ControlSettings control;
     EnvironmentSettings environment;
     OutputSettings output;
 };

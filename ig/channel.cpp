@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "ig/control/frame_control.hpp"
+#include "ig/control/timer_query_check.hpp"
 #include "ig/egl_context.hpp"
 #include "ig/frame_loop.hpp"
 #include "ig/gpu_fence.hpp"
@@ -164,6 +166,8 @@ Expected<std::string> run_channel(const config::Settings& settings, const Channe
             std::string("no terrain database is given; use --terrain FOLDER, and make one with "
                         "'eyepoint-terrain synth -o FOLDER' if there is none"));
     }
+    const auto control = control_target(settings);
+    if (!control) return tl::unexpected(control.error());
     auto output = prepare_output(settings);
     if (!output) return tl::unexpected(output.error());
     auto record = prepare_record(settings.output);
@@ -183,8 +187,10 @@ Expected<std::string> run_channel(const config::Settings& settings, const Channe
     if (!scene) return tl::unexpected(scene.error());
 
     frame_buffer->bind();
-    (*scene)->warm_up(warm_up_view(**database, settings.view));
+    const View first_view = warm_up_view(**database, settings.view);
+    (*scene)->warm_up(first_view);
     (void)wait_for_gpu();
+    if (*control) surroundings.inform(describe(check_timer_queries([&] { (*scene)->draw(first_view); })));
     const GlIdentity& gl = graphics->identity();
     if (*record) {
         const std::string header = to_json_line(
@@ -207,6 +213,7 @@ Expected<std::string> run_channel(const config::Settings& settings, const Channe
                     .clock = clock,
                     .geoid = *geoid ? &**geoid : nullptr,
                     .surface = &surface,
+                    .control = *control,
                     .stop_requested = surroundings.stop_requested,
                     .warn = surroundings.warn},
                    *std::move(frame_buffer));

@@ -49,7 +49,12 @@ FrameLoop::FrameLoop(const config::Settings& settings, Parts parts, FrameBuffer 
              }),
       host_(settings, parts_.host, parts_.clock, parts_.warn),
       begin_ns_(parts_.clock.now_ns()),
-      last_turn_ns_(begin_ns_) {}
+      last_turn_ns_(begin_ns_) {
+    if (!parts_.control) return;
+    controller_.emplace(*parts_.control);
+    control_log_.emplace(*parts_.control);
+    parts_.scene.set_tau(controller_->tau_px());
+}
 
 tl::expected<void, std::string> FrameLoop::run() {
     while (!ended()) {
@@ -162,7 +167,18 @@ tl::expected<void, std::string> FrameLoop::fly(const TimedEye& eye, const FrameT
     const std::int64_t shown_ns = parts_.clock.now_ns();
     entry->output_ms = ms_between(whole_ns, shown_ns);
     usual_frame_ns_ += (static_cast<double>(shown_ns - start.now_ns) - usual_frame_ns_) * kShare;
+    control(*entry);
     return record(*entry);
+}
+
+/// Judges a whole frame and sets the tolerance of the next.
+void FrameLoop::control(FrameEntry& entry) {
+    if (!controller_) return;
+    const ControlDecision decision = controller_->next(cost_of(entry));
+    entry.control = name(decision.state);
+    entry.unreachable_share = decision.unreachable_share;
+    parts_.scene.set_tau(decision.tau_px);
+    if (const auto line = control_log_->line(decision, parts_.clock.now_ns())) parts_.warn(*line);
 }
 
 tl::expected<FrameEntry, std::string> FrameLoop::draw(const TimedEye& eye, const FrameStart& start) {

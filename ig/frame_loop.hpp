@@ -10,6 +10,7 @@
 #include <tl/expected.hpp>
 
 #include "config/settings.hpp"
+#include "ig/control/frame_control.hpp"
 #include "ig/eyepoint.hpp"
 #include "ig/frame_buffer.hpp"
 #include "ig/frame_clock.hpp"
@@ -45,6 +46,7 @@ class FrameLoop {
         Clock& clock;
         const terrain::Geoid* geoid = nullptr;
         terrain::SurfaceHeight* surface = nullptr;
+        std::optional<ControlTarget> control;  ///< none: the tolerance stands
         std::function<bool()> stop_requested;
         std::function<void(std::string_view)> warn;
     };
@@ -73,6 +75,7 @@ class FrameLoop {
     [[nodiscard]] tl::expected<void, std::string> fly(const TimedEye& eye, const FrameTick& tick,
                                                       const FrameStart& start);
     [[nodiscard]] tl::expected<FrameEntry, std::string> draw(const TimedEye& eye, const FrameStart& start);
+    void control(FrameEntry& entry);
     [[nodiscard]] tl::expected<void, std::string> record(const FrameEntry& entry);
 
     config::Settings settings_;
@@ -83,6 +86,8 @@ class FrameLoop {
     HeardHost host_;
     RunSummary summary_;
     StillPicture still_picture_;
+    std::optional<ToleranceController> controller_;
+    std::optional<ControlLog> control_log_;
     std::uint32_t ticks_ = 0;
     std::int64_t begin_ns_ = 0;
     std::int64_t last_turn_ns_ = 0;

@@ -58,6 +58,8 @@ std::string to_json_line(const FrameEntry& entry) {
                          {"blocks_uploaded", drawn.blocks_uploaded},
                          {"bytes_uploaded", drawn.bytes_uploaded},
                          {"tau_px", drawn.tau_px},
+                         {"control", entry.control},
+                         {"unreachable_share", entry.unreachable_share},
                          {"missed_deadlines", entry.missed_deadlines},
                          {"latitude_deg", entry.eye.latitude_deg},
                          {"longitude_deg", entry.eye.longitude_deg},

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include <tl/expected.hpp>
 
@@ -43,6 +44,8 @@ struct FrameEntry {
     double output_ms = 0.0;            ///< wall time that the output took after that
     FrameStatistics drawn;
     std::uint64_t missed_deadlines = 0;  ///< passed over since the frame before
+    std::string_view control = "off";    ///< what tolerance control made of this frame; static storage
+    double unreachable_share = 0.0;      ///< how far above their target frames stay, where it cannot be met
     terrain::Geodetic eye;
 };
 

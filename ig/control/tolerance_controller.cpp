@@ -8,9 +8,9 @@ namespace eyepoint::ig {
 
 namespace {
 
-/// The dead band: tau starts to move when the expected cost is off by more than the first share, and stops
-/// within the second.
-constexpr double kBandStart = 0.03, kBandStop = 0.01;
+/// The dead band: tau starts to move when the expected cost is above or below the target by more than these
+/// shares, and stops within the last.
+constexpr double kBandAbove = 0.03, kBandBelow = 0.045, kBandStop = 0.01;
 /// With noisy costs it is wider: so many deviations of the expected cost, up to the most.
 constexpr double kBandDeviations = 3.0, kBandMost = 0.06;
 /// Of the way to the goal in log tau, gone in one frame; and the most.
@@ -18,6 +18,8 @@ constexpr double kCoarseningGain = 0.4, kRefiningGain = 0.15;
 constexpr double kMostCoarsening = 0.25, kMostRefining = 0.1;
 /// This near to its goal, in log tau, it goes there at once, so that a bound is reached.
 constexpr double kArrived = 0.005;
+/// exp(log(x)) over x, at most.
+constexpr double kRounding = 1.0 + 1e-12;
 /// Over the target by less is not called unreachable.
 constexpr double kUnreachable = 0.03;
 /// Coarsening that takes off less than this share of what is too much is in vain; once held, it has to be
@@ -43,7 +45,7 @@ struct ToleranceController::Outlook {
     double coarsest_excess = 0.0;   ///< the same at the greatest tau
     double blameless_excess = 0.0;  ///< the same at the last tau that met the target
     double goal_log_tau = 0.0;      ///< where the target would be met, within the bounds
-    double band = kBandStart;       ///< tau moves when the excess is beyond it
+    double uncertain = 0.0;         ///< so far off the target the expected cost may be by its noise alone
 };
 
 ToleranceController::ToleranceController(const ControlTarget& target)
@@ -70,7 +72,7 @@ ControlDecision ToleranceController::next(const FrameCost& frame) {
         state_ = state_of(expected, frame);
         move(state_, expected);
     }
-    if (expected.excess <= kBandStart) blameless_tau_px_ = tau_px_;
+    if (expected.excess <= kBandAbove) blameless_tau_px_ = tau_px_;
     const bool unreachable = state_ == ControlState::Coarsest || state_ == ControlState::Held;
     return {tau_px_, state_, unreachable ? std::max(0.0, expected.excess) : 0.0};
 }
@@ -90,8 +92,7 @@ ToleranceController::Outlook ToleranceController::outlook(const FrameCost& frame
         goal = std::clamp(goal, least, most);
     }
     return {excess_at(tau_px_), excess_at(target_.tau_max_px), excess_at(blameless_tau_px_), goal,
-            std::clamp(kBandDeviations * model_.uncertainty_ms(frame.triangles) / target_.frame_ms,
-                       kBandStart, kBandMost)};
+            std::min(kBandDeviations * model_.uncertainty_ms(frame.triangles) / target_.frame_ms, kBandMost)};
 }
 
 double ToleranceController::triangles_at(double tau_px, const FrameCost& frame) const {
@@ -107,14 +108,14 @@ bool ToleranceController::in_vain(const Outlook& outlook, const FrameCost& frame
 
 ControlState ToleranceController::state_of(const Outlook& outlook, const FrameCost& frame) const {
     const bool moving = state_ == ControlState::Coarsening || state_ == ControlState::Refining;
-    const double band = moving ? kBandStop : outlook.band;
-    if (outlook.excess > band) {
+    if (outlook.excess > (moving ? kBandStop : std::max(kBandAbove, outlook.uncertain))) {
         if (outlook.coarsest_excess <= kUnreachable) return ControlState::Coarsening;
         return in_vain(outlook, frame) ? ControlState::Held : ControlState::Coarsest;
     }
-    if (outlook.excess >= -band) return ControlState::Steady;
+    if (outlook.excess >= (moving ? -kBandStop : -std::max(kBandBelow, outlook.uncertain)))
+        return ControlState::Steady;
     if (frame.awaits_terrain) return ControlState::AwaitingTerrain;
-    return tau_px_ <= target_.tau_min_px ? ControlState::Finest : ControlState::Refining;
+    return tau_px_ <= target_.tau_min_px * kRounding ? ControlState::Finest : ControlState::Refining;
 }
 
 void ToleranceController::move(ControlState state, const Outlook& outlook) {

@@ -51,6 +51,8 @@ TEST(FrameRecordLine, HoldsEveryKeyOfTheFormat) {
                                          "blocks_tested",
                                          "blocks_reused",
                                          "tau_px",
+                                         "control",
+                                         "unreachable_share",
                                          "loads_pending",
                                          "blocks_uploaded",
                                          "bytes_uploaded",

@@ -10,6 +10,7 @@ namespace eyepoint::tools {
 namespace {
 
 constexpr double kSettledForS = 0.5;
+constexpr double kNearBound = 0.005;
 
 std::vector<double> smoothed_costs(std::span<const ControlledFrame> frames) {
     constexpr std::size_t kReach = 2;
@@ -73,7 +74,8 @@ TargetScore score(std::span<const ControlledFrame> frames, const ig::ControlTarg
         const double ratio = frame.cost_ms / target_ms;
         result.share_within += std::abs(ratio - 1.0) <= kWithin ? 1.0 / count : 0.0;
         result.share_not_above += ratio <= 1.0 + kWithin ? 1.0 / count : 0.0;
-        const bool bound = frame.tau_px <= bounds.tau_min_px || frame.tau_px >= bounds.tau_max_px;
+        const bool bound = frame.tau_px <= bounds.tau_min_px * (1.0 + kNearBound) ||
+                           frame.tau_px >= bounds.tau_max_px * (1.0 - kNearBound);
         result.share_at_bounds += bound ? 1.0 / count : 0.0;
         result.mean_log_tau += std::log(frame.tau_px) / count;
         result.tau_min_px = std::min(result.tau_min_px, frame.tau_px);
