@@ -90,8 +90,8 @@ std::uint32_t DrawList::place(const terrain::TileNode& node, std::uint64_t frame
     }
     if (!nested_ || placed_in_frame_[slot] == frame) return slot;
     placed_in_frame_[slot] = frame;
-    const std::uint32_t parent_slot = node.parent != nullptr ? place(*node.parent, frame) : kNoSlot;
-    records_[slot].tree = {parent_slot,
+    const std::uint32_t parent = node.parent != nullptr ? place(*node.parent, frame) + 1 : kNoSlot;
+    records_[slot].tree = {parent,
                            node.block->last_level | static_cast<std::uint32_t>(terrain::quadrant(node.tile))
                                                         << kQuadrantShift,
                            0U, 0U};

@@ -36,8 +36,12 @@ class DrawList {
         glm::vec4 noise;
         glm::uvec4 tree;
     };
-    /// In BlockRecord::tree: no parent.
-    static constexpr std::uint32_t kNoSlot = 0xffff'ffff;
+    /// First word of BlockRecord::tree: a parent's slot + 1, or this. Zero, so that a vertex shader that
+    /// reads zeros for a record finds no parent: llvmpipe (Mesa 22.3) runs the lanes that only fill up a
+    /// vector of vertices too, with zeros for every record. Were zero a slot, such a lane could climb from it
+    /// to itself for ever; Mesa ends the loops of the whole vector after 65535 turns, and the vertices in it
+    /// are wrong.
+    static constexpr std::uint32_t kNoSlot = 0;
 
     /// nested: draws refer to the blocks' own index lists, and a drawn block's ancestors are there with it,
     /// for the walk of nested.glsl; otherwise draws refer to a list that the caller binds.

@@ -7,7 +7,9 @@ layout(location = 2) in uvec4 packed_rest;  // normal, surface, place, motion
 struct BlockRecord {
     vec4 image;  // layer (negative: none), scale and offset of the picture's coordinates
     vec4 noise;  // scale and offset of the noise's coordinates; w: metres a texel of the picture
-    uvec4 tree;  // parent's slot; last level, quadrant << 8, floors << 16; the floors of the edges' halves, a byte each
+    // Parent's slot + 1, 0: none; last level, quadrant << 8, floors << 16; the floors of the edges' halves, a byte each.
+    // All zeros has no parent: llvmpipe reads zeros here in the lanes that fill up a vector of vertices.
+    uvec4 tree;
 };
 layout(std430, binding = 0) readonly buffer Blocks { BlockRecord blocks[]; };
 

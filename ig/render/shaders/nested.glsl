@@ -5,7 +5,7 @@ layout(binding = 2) uniform usamplerBuffer vertex_words;  // all blocks' vertice
 
 const int kLevels = 64;
 const uint kStays = 255u;
-const uint kNoSlot = 0xffffffffu;
+const uint kNoSlot = 0u;
 
 // log2 of a positive normal number, to 6e-8 + half a unit in the last place of the result: the exponent, and a
 // polynomial of degree 9 through the Chebyshev nodes of sqrt(1/2)..sqrt(2).
@@ -92,7 +92,7 @@ Vertex walk(Vertex vertex, int slot, uint moves) {
         while (gone == kStays && level > float(tree.y & 0xffu) && tree.x != kNoSlot) {
             offset -= scale * vec2((tree.y >> 8) & 1u, (tree.y >> 9) & 1u);
             scale *= 2.0;
-            slot = int(tree.x);
+            slot = int(tree.x) - 1;
             tree = blocks[slot].tree;
             moves = texelFetch(vertex_words, (slot * kBlockVertices + int(moves & 0xffffu)) * 5 + 4).y;
             gone = (moves >> 16) & 0xffu;
