@@ -34,7 +34,7 @@ struct EntityRates {
     Axes axes = Axes::NorthEastDown;
     std::array<double, 3> velocity_mps{};  ///< along the axes, against the Earth
     Turn turn = Turn::EulerAngles;
-    AttitudeDeg turn_deg_s;
+    AttitudeDeg turn_deg_s{};
 };
 
 /// A top-level entity: geodetic WGS84 latitude -90..90, longitude -180..180, altitude above the host's datum.

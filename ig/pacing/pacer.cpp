@@ -34,8 +34,10 @@ FrameTick Pacer::wait() {
 
 FrameTick Pacer::wait_beside_grid() {
     const std::int64_t now_ns = clock_.now_ns();
-    const auto passed =
+    auto passed =
         static_cast<std::uint64_t>(static_cast<double>(now_ns - start_ns_) / period_ns_) + start_slot_;
+    // Deadlines are rounded to the nanosecond, down too.
+    if (deadline_ns(passed + 1) <= now_ns) ++passed;
     const bool on_grid = mode_ == config::Pacing::Free || passed > slot_ || owes_frame_;
     slot_ = passed;
     return {.slot = passed, .deadline_ns = now_ns, .missed = 0, .on_grid = on_grid};

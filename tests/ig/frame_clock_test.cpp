@@ -68,6 +68,20 @@ TEST(FrameClock, AStallOfSecondsCausesNoBurst) {
     }
 }
 
+TEST(FrameClock, AProcessStoppedInItsSleepBeginsAtTheNewestDeadlinePassed) {
+    VirtualClock clock;
+    FrameClock frames(clock, 100.0);
+    frames.wait();
+    clock.wake_up_ns = 5'003 * kMs;
+    const FrameTick tick = frames.wait();
+    clock.wake_up_ns = 0;
+    EXPECT_EQ(tick.slot, 501U);
+    EXPECT_EQ(tick.missed, 500U);
+    EXPECT_EQ(clock.now_ns() - tick.deadline_ns, 3 * kMs);
+    EXPECT_EQ(frames.wait().missed, 0U);
+    EXPECT_EQ(frames.wait().slot, 503U);
+}
+
 TEST(FrameClock, WorkThatEndsOnTheDeadlineIsInTime) {
     VirtualClock clock;
     FrameClock frames(clock, 100.0);

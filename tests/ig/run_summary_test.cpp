@@ -39,6 +39,22 @@ TEST(RunSummary, SaysFramesRatePercentilesAndMisses) {
     EXPECT_FALSE(holds(line, "\n")) << line;
 }
 
+TEST(RunSummary, SaysTheDelayOfEachPacketOnce) {
+    RunSummary summary;
+    for (int i = 1; i <= 1000; ++i) {
+        FrameEntry entry;
+        entry.arrival_to_complete_ms = i % 10 == 0 ? 500.0 : 0.02 * i;
+        entry.new_packet = i % 10 != 0;
+        summary.add(entry);
+    }
+    // Distribution::kRelativeError on 10.0, 19.0, 19.8; the largest is exact.
+    const std::string line = summary.line(10.0, {}, 0);
+    EXPECT_TRUE(holds(line, "delay ms p50 10.") || holds(line, "delay ms p50 9.9")) << line;
+    EXPECT_TRUE(holds(line, " p95 18.9") || holds(line, " p95 19.0")) << line;
+    EXPECT_TRUE(holds(line, " p99 19.7") || holds(line, " p99 19.8")) << line;
+    EXPECT_TRUE(holds(line, "max 19.98; ")) << line;
+}
+
 TEST(RunSummary, OfNoFramesIsStillALine) {
     const std::string line = RunSummary{}.line(0.0, {}, 0);
     EXPECT_TRUE(holds(line, "0 frames in 0.0 s (0.0 Hz)")) << line;
