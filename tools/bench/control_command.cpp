@@ -21,6 +21,7 @@ struct ControlRequest {
     ig::ControlTarget bounds{.tau_min_px = 0.1, .tau_max_px = 16.0, .nominal_tau_px = 2.0};
     std::string clock = "cpu";
     std::vector<double> floors, rates_hz;
+    std::size_t flights = 1;
     double target_share = 0.85;
     double step_floors = 1.25;
     double step_s = 3.0;
@@ -85,9 +86,12 @@ TargetRun run_target(ControlStage& stage, std::span<const ig::FlightEye> eyes, c
     target.frame_ms = target_ms;
     TargetRun run;
     run.name = std::move(name);
-    run.controlled = fly(stage, eyes, {target, 0.0, clock_of(request)});
-    run.control = score(run.controlled, target, target_ms, request.eyes.rate_hz);
-    run.fixed = fly(stage, eyes, {{}, std::exp(run.control.mean_log_tau), clock_of(request)});
+    for (std::size_t i = 0; i < request.flights; ++i) {
+        run.controlled.push_back(fly(stage, eyes, {target, 0.0, clock_of(request)}));
+        run.each.push_back(score(run.controlled.back(), target, target_ms, request.eyes.rate_hz));
+    }
+    run.middle = score(middle_flight(run.controlled), target, target_ms, request.eyes.rate_hz);
+    run.fixed = fly(stage, eyes, {{}, std::exp(run.middle.mean_log_tau), clock_of(request)});
     run.beside = score(run.fixed, target, target_ms, request.eyes.rate_hz);
     return run;
 }
@@ -180,6 +184,9 @@ void add_flight(CLI::App& control) {
     command->add_option("--floors", request->floors,
                         "target: so many times the flight's cost at the coarsest tolerance; may be repeated");
     command->add_option("--target-rate", request->rates_hz, "target: frames a second; may be repeated");
+    command->add_option("--flights", request->flights, "times to fly at each target")
+        ->check(CLI::Range(1, 100))
+        ->capture_default_str();
     command->add_option("--share", request->target_share, "of the period, that a frame may take")
         ->check(CLI::Range(0.1, 1.0))
         ->capture_default_str();

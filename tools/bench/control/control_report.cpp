@@ -1,8 +1,8 @@
 #include "tools/bench/control/control_report.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -39,33 +39,42 @@ std::string describe_unreachable(std::span<const ControlledFrame> frames) {
     }
     if (coarsest + held == 0) return {};
     return fmt::format(
-        "  target unreachable in {} frames at the coarsest tolerance and {} held; by up to {:.0f}%\n",
-        coarsest, held, 100.0 * most);
+        "  target unreachable: {} frames at the coarsest tolerance, {} held; by up to {:.0f}%\n", coarsest,
+        held, 100.0 * most);
 }
 
 }  // namespace
 
 std::string describe(const TargetRun& run) {
-    const TargetScore &control = run.control, &fixed = run.beside;
-    std::string text =
-        fmt::format("{}: target {:.2f} ms (floor {:.2f} ms), {} frames\n  {:<34}{:>12}{:>12}\n", run.name,
-                    control.target_ms, run.floor_ms, run.controlled.size(), "", "controlled", "fixed tau");
-    const auto row = [&](const char* what, double left, double right) {
-        text += fmt::format("  {:<34}{:>12.3f}{:>12.3f}\n", what, left, right);
+    std::string text = fmt::format("{}: target {:.2f} ms (floor {:.2f} ms), {} frames\n  {:<34}", run.name,
+                                   run.beside.target_ms, run.floor_ms, run.fixed.size(), "");
+    std::vector<TargetScore> columns = run.each;
+    for (std::size_t i = 1; i <= run.each.size(); ++i)
+        text += fmt::format("{:>12}", fmt::format("flight {}", i));
+    if (run.each.size() > 1) {
+        columns.push_back(run.middle);
+        text += fmt::format("{:>12}", "middle");
+    }
+    columns.push_back(run.beside);
+    text += fmt::format("{:>12}\n", "fixed tau");
+    const auto row = [&](const char* what, const std::function<double(const TargetScore&)>& value) {
+        text += fmt::format("  {:<34}", what);
+        for (const TargetScore& column : columns) text += fmt::format("{:>12.3f}", value(column));
+        text += '\n';
     };
-    row("frames within 10% of the target, %", 100.0 * control.share_within, 100.0 * fixed.share_within);
-    row("frames not above it by 10%, %", 100.0 * control.share_not_above, 100.0 * fixed.share_not_above);
-    row("worst frame / target", control.worst_ratio(), fixed.worst_ratio());
-    row("p99 / median", control.p99_over_median(), fixed.p99_over_median());
-    row("median, ms", control.median_ms, fixed.median_ms);
-    row("tau, geometric mean, px", std::exp(control.mean_log_tau), std::exp(fixed.mean_log_tau));
-    row("tau, least, px", control.tau_min_px, fixed.tau_min_px);
-    row("tau, greatest, px", control.tau_max_px, fixed.tau_max_px);
-    row("frames at a bound of tau, %", 100.0 * control.share_at_bounds, 100.0 * fixed.share_at_bounds);
-    row("reversals of tau a second", control.reversals_per_s, fixed.reversals_per_s);
-    row("triangles, mean", control.mean_triangles, fixed.mean_triangles);
-    row("choices of blocks reused, %", 100.0 * control.reuse_share, 100.0 * fixed.reuse_share);
-    return text + describe_unreachable(run.controlled);
+    row("frames within 10% of the target, %", [](const auto& s) { return 100.0 * s.share_within; });
+    row("frames not above it by 10%, %", [](const auto& s) { return 100.0 * s.share_not_above; });
+    row("worst frame / target", [](const auto& s) { return s.worst_ratio(); });
+    row("p99 / median", [](const auto& s) { return s.p99_over_median(); });
+    row("median, ms", [](const auto& s) { return s.median_ms; });
+    row("tau, geometric mean, px", [](const auto& s) { return std::exp(s.mean_log_tau); });
+    row("tau, least, px", [](const auto& s) { return s.tau_min_px; });
+    row("tau, greatest, px", [](const auto& s) { return s.tau_max_px; });
+    row("frames at a bound of tau, %", [](const auto& s) { return 100.0 * s.share_at_bounds; });
+    row("reversals of tau a second", [](const auto& s) { return s.reversals_per_s; });
+    row("triangles, mean", [](const auto& s) { return s.mean_triangles; });
+    row("choices of blocks reused, %", [](const auto& s) { return 100.0 * s.reuse_share; });
+    return text + describe_unreachable(run.controlled.front());
 }
 
 std::string describe(const StepScore& score) {
@@ -83,23 +92,29 @@ nlohmann::json to_json(std::span<const ControlledFrame> frames) {
     nlohmann::json json{{"cost_ms", nlohmann::json::array()},
                         {"tau_px", nlohmann::json::array()},
                         {"triangles", nlohmann::json::array()},
+                        {"bytes_uploaded", nlohmann::json::array()},
                         {"state", nlohmann::json::array()}};
     for (const ControlledFrame& frame : frames) {
         json["cost_ms"].push_back(frame.cost_ms);
         json["tau_px"].push_back(frame.tau_px);
         json["triangles"].push_back(frame.triangles);
+        json["bytes_uploaded"].push_back(frame.bytes_uploaded);
         json["state"].push_back(ig::name(frame.state));
     }
     return json;
 }
 
 nlohmann::json to_json(const TargetRun& run) {
-    return {{"name", run.name},
-            {"floor_ms", run.floor_ms},
-            {"controlled", to_json(run.control)},
-            {"fixed_tau", to_json(run.beside)},
-            {"controlled_frames", to_json(std::span(run.controlled))},
-            {"fixed_frames", to_json(std::span(run.fixed))}};
+    nlohmann::json json{{"name", run.name},
+                        {"floor_ms", run.floor_ms},
+                        {"middle", to_json(run.middle)},
+                        {"fixed_tau", to_json(run.beside)},
+                        {"fixed_frames", to_json(std::span(run.fixed))}};
+    for (std::size_t i = 0; i < run.each.size(); ++i) {
+        json["controlled"].push_back(to_json(run.each[i]));
+        json["controlled_frames"].push_back(to_json(std::span(run.controlled[i])));
+    }
+    return json;
 }
 
 }  // namespace eyepoint::tools

@@ -9,15 +9,17 @@
 
 namespace eyepoint::tools {
 
-/// A flight at one target, with the same flight at the fixed tolerance of equal mean quality.
+/// A flight at one target a few times, with the same flight at the fixed tolerance of equal mean quality.
 struct TargetRun {
     std::string name;       ///< of the target: "1.5 floors", "60 Hz"
     double floor_ms = 0.0;  ///< median of the flight at the coarsest tolerance
-    std::vector<ControlledFrame> controlled, fixed;
-    TargetScore control, beside;
+    std::vector<std::vector<ControlledFrame>> controlled;
+    std::vector<ControlledFrame> fixed;
+    std::vector<TargetScore> each;  ///< of `controlled`
+    TargetScore middle, beside;     ///< of middle_flight(controlled), of `fixed`
 };
 
-/// A table of two columns.
+/// A table: a column a flight, the middle one, the fixed tolerance.
 [[nodiscard]] std::string describe(const TargetRun& run);
 [[nodiscard]] std::string describe(const StepScore& score);
 

@@ -93,6 +93,17 @@ TargetScore score(std::span<const ControlledFrame> frames, const ig::ControlTarg
     return result;
 }
 
+std::vector<ControlledFrame> middle_flight(std::span<const std::vector<ControlledFrame>> flights) {
+    std::vector<ControlledFrame> middle = flights.front();
+    for (std::size_t i = 0; i < middle.size(); ++i) {
+        std::vector<double> costs;
+        for (const auto& flight : flights) costs.push_back(flight[i].cost_ms);
+        std::ranges::sort(costs);
+        middle[i].cost_ms = costs[costs.size() / 2];
+    }
+    return middle;
+}
+
 StepScore score_step(std::span<const ControlledFrame> frames, double target_ms, double rate_hz) {
     const std::vector<double> costs = smoothed_costs(frames);
     StepScore result{.settle_s = static_cast<double>(settled_at(costs, target_ms, rate_hz)) / rate_hz,

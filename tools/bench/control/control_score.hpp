@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "tools/bench/control/controlled_flight.hpp"
 
@@ -30,6 +31,12 @@ inline constexpr double kReversal = 0.02;  ///< of tau
 /// `frames` not empty; `rate_hz`: frames a second of the flight; `bounds`: of tau.
 [[nodiscard]] TargetScore score(std::span<const ControlledFrame> frames, const ig::ControlTarget& bounds,
                                 double target_ms, double rate_hz);
+
+/// The flights' middle one, frame by frame: what happens at random places, a machine's interruptions, is out
+/// of it; what belongs to a place of the path is not. Costs are medians, the rest is the first flight's.
+/// Flights of equal length, at least one.
+[[nodiscard]] std::vector<ControlledFrame> middle_flight(
+    std::span<const std::vector<ControlledFrame>> flights);
 
 struct StepScore {
     double settle_s = 0.0;   ///< until the cost stays within 10% of the target for half a second; the whole
