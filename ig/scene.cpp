@@ -182,9 +182,11 @@ void TerrainScene::draw_floor(const View& view) {
 }
 
 void TerrainScene::keep_still(const View& view) {
-    still_.reset();
-    if (drawn_ == nullptr) return;
-    still_.emplace(*drawn_, terrain_.list(), method_->indices(), lod_view_of(view), options_.morph);
+    const bool can = drawn_ != nullptr && terrain_.prepare_still();
+    if (!can) return still_.reset();
+    // The old mesh goes last: llvmpipe compiles shaders anew when names that it has seen come back as other
+    // buffers.
+    still_ = StillMesh{*drawn_, terrain_.list(), method_->indices(), lod_view_of(view), options_.morph};
 }
 
 void TerrainScene::draw_still(const View& view) {

@@ -62,8 +62,8 @@ class Scene {
     /// Keeps the last draw()'s triangles, where they were drawn, as one static mesh: for measuring, as it
     /// takes many frames' time. To be called after a draw() of the same view, before anything else.
     virtual void keep_still(const View& view) = 0;
-    /// The mesh kept, with the programs and passes of draw() and none of its level of detail: what draw()
-    /// costs more is the price of that. Nothing kept: the sky.
+    /// The mesh kept, with the passes and shaders of draw() and none of its level of detail, in the vertex
+    /// shader neither: what draw() costs more is the price of that. Nothing kept: the sky.
     virtual void draw_still(const View& view) = 0;
     /// From the next frame on.
     virtual void set_show(Show show) = 0;

@@ -57,15 +57,14 @@ class Gathering {
         : list_(list), grid_indices_(grid_indices), view_(view), motion_(terrain::motion_view(view, morph)) {}
 
     void add(const terrain::BlockDraw& draw, std::uint32_t slot) {
-        const terrain::Block& block = *draw.node->block;
-        const auto [known, fresh] = places_.try_emplace(slot, static_cast<std::uint32_t>(places_.size()));
-        if (fresh) place(draw, slot);
-        const std::uint32_t base = known->second * kBlockVertices;
-        const std::span<const std::uint16_t> indices = grid_indices_.empty() ? block.indices : grid_indices_;
+        const auto [known, fresh] = blocks_.try_emplace(slot);
+        if (fresh) place(known->second, slot);
+        const std::span<const std::uint16_t> indices =
+            grid_indices_.empty() ? draw.node->block->indices : grid_indices_;
         std::vector<std::uint32_t>& own = by_features[list_.features_of(draw, slot)];
         for (const std::uint16_t index : indices.subspan(draw.indices.first, draw.indices.count)) {
-            all.push_back(base + index);
-            own.push_back(base + index);
+            all.push_back(vertex(draw, index, known->second));
+            own.push_back(all.back());
         }
     }
 
@@ -75,25 +74,39 @@ class Gathering {
     std::array<std::vector<std::uint32_t>, kFeatureSets> by_features;
 
   private:
-    /// The block's vertices and its record, without parents.
-    void place(const terrain::BlockDraw& draw, std::uint32_t slot) {
-        const terrain::Block& block = *draw.node->block;
-        const std::size_t base = vertices.size();
-        vertices.resize(base + kBlockVertices);
-        for (std::size_t i = 0; i < block.vertices.size(); ++i) {
-            vertices[base + i] = grid_indices_.empty()
-                                     ? stopped(draw, static_cast<std::uint16_t>(i), view_, motion_)
-                                     : block.vertices[i];
-        }
+    /// A block's vertices stand in the order of their first use, as in any mesh made for drawing: drivers
+    /// keep the last ones.
+    struct Placed {
+        std::uint32_t first = 0;
+        std::uint32_t used = 0;
+        std::array<std::uint32_t, kBlockVertices> place;
+    };
+    static constexpr std::uint32_t kUnused = 0xffff'ffff;
+
+    /// Room for the block's vertices, and its record, without parents.
+    void place(Placed& block, std::uint32_t slot) {
+        block.first = static_cast<std::uint32_t>(vertices.size());
+        block.place.fill(kUnused);
+        vertices.resize(vertices.size() + kBlockVertices);
         records.push_back(list_.record(slot));
         records.back().tree = {DrawList::kNoSlot, 0U, 0U, 0U};
+    }
+
+    std::uint32_t vertex(const terrain::BlockDraw& draw, std::uint16_t index, Placed& block) {
+        std::uint32_t& place = block.place[index];
+        if (place == kUnused) {
+            place = block.first + block.used++;
+            vertices[place] = grid_indices_.empty() ? stopped(draw, index, view_, motion_)
+                                                    : draw.node->block->vertices[index];
+        }
+        return place;
     }
 
     const DrawList& list_;
     std::span<const std::uint16_t> grid_indices_;
     const terrain::LodView& view_;
     terrain::MotionView motion_;
-    std::unordered_map<std::uint32_t, std::uint32_t> places_;  ///< in this mesh, by slot of the list
+    std::unordered_map<std::uint32_t, Placed> blocks_;  ///< by slot of the list
 };
 
 }  // namespace

@@ -161,11 +161,18 @@ void TerrainPass::draw_surface() const {
     glDisable(GL_CULL_FACE);
 }
 
+bool TerrainPass::prepare_still() {
+    if (!nested_ || motionless_) return true;
+    auto programs = link(false);
+    if (programs) motionless_ = std::move(*programs);
+    return motionless_.has_value();
+}
+
 void TerrainPass::draw(const StillMesh& mesh) const {
     begin(mesh.terrain());
     for (std::size_t set = 0; set < kFeatureSets; ++set) {
         if (!mesh.has_features(set)) continue;
-        glUseProgram(programs_.shaded[set].name());
+        glUseProgram(still_programs().shaded[set].name());
         mesh.draw_features(set);
     }
     glDisable(GL_CULL_FACE);
@@ -173,7 +180,7 @@ void TerrainPass::draw(const StillMesh& mesh) const {
 
 void TerrainPass::draw_surface(const StillMesh& mesh) const {
     begin(mesh.terrain());
-    glUseProgram(programs_.others[kSurface].name());
+    glUseProgram(still_programs().others[kSurface].name());
     mesh.draw_all();
     glDisable(GL_CULL_FACE);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -33,7 +34,10 @@ class TerrainPass {
     void draw() const;
     /// What shading needs of it, into the bound SurfaceBuffer.
     void draw_surface() const;
-    /// The same two of a mesh that stands still.
+    /// Makes what the next two need; false where that fails.
+    [[nodiscard]] bool prepare_still();
+    /// The same two of a mesh that stands still: the same programs, without what moves the vertices of nested
+    /// meshes.
     void draw(const StillMesh& mesh) const;
     void draw_surface(const StillMesh& mesh) const;
     /// Its depth alone.
@@ -62,8 +66,10 @@ class TerrainPass {
     TerrainPass(Programs programs, std::span<const std::uint16_t> indices, bool nested);
     void describe_vertices() const;
     void begin(const DrawnTerrain& terrain) const;
+    [[nodiscard]] const Programs& still_programs() const { return nested_ ? *motionless_ : programs_; }
 
     Programs programs_;
+    std::optional<Programs> motionless_;  ///< of a method whose vertices move
     bool nested_;
     GlVertexArray layout_;
     GlBuffer indices_;  ///< of a method whose blocks are grids

@@ -87,10 +87,27 @@ ig::FrameStatistics Renderer::draw_now(const ig::View& view, ig::Picture& pictur
     return statistics;
 }
 
+DrawnPicture Renderer::draw_distances(const ig::View& view) {
+    DrawnPicture drawn;
+    drawn.statistics = draw_now(view, drawn.picture);
+    drawn.distance_m = read_distances(frame_buffer_.size(), view.near_m);
+    return drawn;
+}
+
 DrawnPicture Renderer::draw_floor(const ig::View& view) {
     DrawnPicture drawn;
     frame_buffer_.bind();
     scene_->draw_floor(view);
+    frame_buffer_.read(drawn.picture);
+    drawn.distance_m = read_distances(frame_buffer_.size(), view.near_m);
+    return drawn;
+}
+
+DrawnPicture Renderer::draw_still(const ig::View& view) {
+    DrawnPicture drawn;
+    frame_buffer_.bind();
+    scene_->keep_still(view);
+    scene_->draw_still(view);
     frame_buffer_.read(drawn.picture);
     drawn.distance_m = read_distances(frame_buffer_.size(), view.near_m);
     return drawn;

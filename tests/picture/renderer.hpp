@@ -43,9 +43,12 @@ class Renderer {
     [[nodiscard]] ig::Picture draw_complete(const ig::View& view);
     /// Draws with what has been loaded by now.
     ig::FrameStatistics draw_now(const ig::View& view, ig::Picture& picture);
+    [[nodiscard]] DrawnPicture draw_distances(const ig::View& view);
 
     /// What draw_floor leaves, of the view that was drawn last.
     [[nodiscard]] DrawnPicture draw_floor(const ig::View& view);
+    /// What draw_still leaves of the view that was drawn last.
+    [[nodiscard]] DrawnPicture draw_still(const ig::View& view);
     [[nodiscard]] ig::Shading shading() const { return scene_->shading(); }
 
     [[nodiscard]] const ig::GlIdentity& gl() const { return context_.identity(); }
