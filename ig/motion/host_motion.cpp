@@ -12,6 +12,8 @@ namespace {
 constexpr double kSecondsPerNs = 1e-9;
 /// Of a history of half a second, kept at most every 8 ms.
 constexpr std::size_t kMostSamples = 64;
+/// Two differences, however old; one alone may be a jump.
+constexpr std::size_t kLeastSamples = 3;
 constexpr double kLeastSpacingS = 0.008;
 /// Two states that came closer together than this say nothing of a velocity.
 constexpr double kLeastSpanS = 0.0005;
@@ -50,12 +52,18 @@ HostMotion::HostMotion() { samples_.reserve(kMostSamples + 1); }
 void HostMotion::forget() {
     samples_.clear();
     velocity_.reset();
+    believed_ = false;
 }
 
 void HostMotion::start_from(Sample sample) {
-    samples_.clear();
+    forget();
     samples_.push_back(std::move(sample));
-    velocity_.reset();
+}
+
+void HostMotion::stand_still(Sample sample) {
+    const bool states = sample.stated.has_value();
+    start_from(std::move(sample));
+    if (!states) velocity_ = Velocity{};
 }
 
 bool HostMotion::observe(const net::EntityState& entity, const StateTime& time) {
@@ -67,7 +75,7 @@ bool HostMotion::observe(const net::EntityState& entity, const StateTime& time) 
     const Sample& newest = samples_.back();
     const double span = span_s(newest.time, time);
     if (same_pose(newest.entity, entity)) {
-        if (span > kStillS) start_from(std::move(sample));
+        if (span > kStillS) stand_still(std::move(sample));
         return false;
     }
     if (span > kLongestGapS) {
@@ -83,7 +91,7 @@ bool HostMotion::observe(const net::EntityState& entity, const StateTime& time) 
         return true;
     }
     append(std::move(sample), span);
-    velocity_ = estimate();
+    estimate();
     return false;
 }
 
@@ -117,11 +125,11 @@ void HostMotion::append(Sample sample, double span) {
     const auto too_old = [&](const Sample& old) {
         return span_s(old.time, samples_.back().time) > kHistoryS;
     };
-    while (samples_.size() > 2 && (too_old(samples_.front()) || samples_.size() > kMostSamples))
+    while (samples_.size() > kLeastSamples && (too_old(samples_.front()) || samples_.size() > kMostSamples))
         samples_.erase(samples_.begin());
 }
 
-Velocity HostMotion::estimate() const {
+void HostMotion::estimate() {
     const Sample& newest = samples_.back();
     const auto since = [&](const Sample& old) { return span_s(old.time, newest.time); };
     // The previous one at the least.
@@ -131,23 +139,26 @@ Velocity HostMotion::estimate() const {
     Velocity velocity{way_between(base.entity, newest.entity) / since(base),
                       turn_between(base.entity, newest.entity) / since(base)};
     const Sample& oldest = samples_.front();
+    believed_ = samples_.size() >= kLeastSamples;
     if (newest.stated && oldest.stated) {
         if (agree(newest.stated_way_m - oldest.stated_way_m, way_between(oldest.entity, newest.entity),
-                  kAgreementM))
+                  kAgreementM)) {
             velocity.ned_mps = newest.stated->ned_mps;
+            believed_ = true;
+        }
         if (agree(newest.stated_turn_rad - oldest.stated_turn_rad, turn_between(oldest.entity, newest.entity),
                   kAgreementRad))
             velocity.turn_rad_s = newest.stated->turn_rad_s;
     }
     if (glm::length(velocity.turn_rad_s) > kFastestTurnRadS) velocity.turn_rad_s = glm::dvec3(0.0);
-    return velocity;
+    velocity_ = velocity;
 }
 
 std::optional<HostMotion::MovedOn> HostMotion::at(std::int64_t time_ns) const {
     if (samples_.empty()) return std::nullopt;
     const Sample& newest = samples_.back();
     const double ahead_s = static_cast<double>(time_ns - newest.time.arrival_ns) * kSecondsPerNs;
-    if (!velocity_ || ahead_s <= 0.0) return MovedOn{newest.entity, 0.0};
+    if (!believed_ || ahead_s <= 0.0) return MovedOn{newest.entity, 0.0};
     const double by_s = std::min(ahead_s, kLongestS);
     return MovedOn{moved_on(newest.entity, *velocity_, by_s), by_s};
 }

@@ -19,8 +19,8 @@ struct StateTime {
 /// Moves the newest state on to the time that a frame is seen at, within bounds that keep a host's odd
 /// moments from being made worse:
 /// - by kLongestS at most: a host that falls silent leaves its vehicle standing;
-/// - not before two packets have come that a body can have flown between: not after a jump (a new start, a
-///   teleport), not faster than kFastestMps or kFastestTurnRadS;
+/// - not before two packets (three, where no velocities are stated) have come that a body can have flown
+///   between: not after a jump (a new start, a teleport), not faster than kFastestMps or kFastestTurnRadS;
 /// - by the velocities that the host states, while they agree with the way that its packets went over the
 /// last
 ///   kHistoryS; else, and where it states none, by the differences over the last kDifferenceS;
@@ -60,12 +60,14 @@ class HostMotion {
     };
 
     void start_from(Sample sample);
+    void stand_still(Sample sample);
     void append(Sample sample, double span_s);
     [[nodiscard]] bool jumped(const Sample& to, double span_s) const;
-    [[nodiscard]] Velocity estimate() const;
+    void estimate();
 
-    std::vector<Sample> samples_;  ///< oldest first
-    std::optional<Velocity> velocity_;
+    std::vector<Sample> samples_;       ///< oldest first
+    std::optional<Velocity> velocity_;  ///< what the next packet is expected to agree with
+    bool believed_ = false;             ///< whether to move on by it
 };
 
 }  // namespace eyepoint::ig

@@ -33,6 +33,7 @@ class ChildProcess {
     /// Waits until standard error holds the text; false when the program ends or the time passes first.
     [[nodiscard]] bool wait_for_error_text(const std::string& text, std::chrono::seconds patience);
     void send_signal(int signal) const;
+    [[nodiscard]] pid_t id() const { return child_; }
     /// Waits for the end; past `patience` it is killed.
     [[nodiscard]] Ending wait(std::chrono::seconds patience);
 

@@ -99,9 +99,23 @@ TEST(HostMotion, AJumpIsDrawnAtOnceAndNotMovedOn) {
         EXPECT_EQ(moved.by_s, 0.0);
         EXPECT_EQ(moved.entity.latitude_deg, north_at(500.0, 0.0).latitude_deg);
         EXPECT_FALSE(motion.observe(north_at(500.0 + 0.06 * 33, stated_mps), {6 * 33 * kMs, {}}));
-        EXPECT_NEAR(north_m(motion.at((6 * 33 + 30) * kMs)->entity), 500.0 + 0.06 * 63, 0.05)
-            << "it goes on from the next packet";
+        EXPECT_FALSE(motion.observe(north_at(500.0 + 0.06 * 66, stated_mps), {7 * 33 * kMs, {}}));
+        EXPECT_NEAR(north_m(motion.at((7 * 33 + 30) * kMs)->entity), 500.0 + 0.06 * 96, 0.05)
+            << "it goes on from the packets after it";
     }
+}
+
+TEST(HostMotion, AVehicleThatStoodAndIsPutElsewhereHasJumped) {
+    HostMotion motion;
+    for (int i = 0; i < 20; ++i) motion.observe(north_at(0.0, 0.0), {i * 33 * kMs, {}});
+    EXPECT_TRUE(motion.observe(north_at(80.0, 0.0), {20 * 33 * kMs, {}}));
+    EXPECT_EQ(motion.at((20 * 33 + 100) * kMs)->by_s, 0.0);
+}
+
+TEST(HostMotion, OneDifferenceAloneIsNoVelocity) {
+    HostMotion motion;
+    EXPECT_EQ(flown(motion, 2, 33, 0.0, 50).by_s, 0.0);
+    EXPECT_GT(flown(motion, 3, 33, 0.0, 50).by_s, 0.0);
 }
 
 TEST(HostMotion, NothingMovesFasterThanASatellite) {
