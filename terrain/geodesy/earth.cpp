@@ -1,9 +1,9 @@
 #include "terrain/geodesy/earth.hpp"
 
 #include <cmath>
-#include <vector>
 
 #include <GeographicLib/Geocentric.hpp>
+#include <GeographicLib/Math.hpp>
 
 namespace eyepoint::terrain {
 
@@ -23,14 +23,14 @@ Geodetic to_geodetic(const Ecef& point) {
     return {latitude_deg, longitude_deg, EllipsoidalHeight{height_m}};
 }
 
+// Written out, as GeographicLib gives its rotation on the heap alone, and every frame asks for one.
 glm::dmat3 east_north_up(double latitude_deg, double longitude_deg) {
-    Ecef point;
-    std::vector<double> rotation(9);  // row-major; its columns are east, north, up
-    GeographicLib::Geocentric::WGS84().Forward(latitude_deg, longitude_deg, 0.0, point.x, point.y, point.z,
-                                               rotation);
-    return {{rotation[0], rotation[3], rotation[6]},
-            {rotation[1], rotation[4], rotation[7]},
-            {rotation[2], rotation[5], rotation[8]}};
+    double sin_latitude = 0.0, cos_latitude = 0.0, sin_longitude = 0.0, cos_longitude = 0.0;
+    GeographicLib::Math::sincosd(latitude_deg, sin_latitude, cos_latitude);
+    GeographicLib::Math::sincosd(longitude_deg, sin_longitude, cos_longitude);
+    return {{-sin_longitude, cos_longitude, 0.0},
+            {-cos_longitude * sin_latitude, -sin_longitude * sin_latitude, cos_latitude},
+            {cos_longitude * cos_latitude, sin_longitude * cos_latitude, sin_latitude}};
 }
 
 glm::dmat3 attitude_rotation(const Attitude& attitude) {

@@ -25,6 +25,12 @@ std::optional<double> outside_gl_ms(const FlightResult& result) {
     return *middle;
 }
 
+/// The driver has the states of another mesh to leave again.
+bool after_still(const FlightResult& result, std::size_t frame) {
+    const auto* still_ms = result.find("still_cpu_ms");
+    return still_ms != nullptr && frame > 0 && (*still_ms)[frame - 1] > 0.0;
+}
+
 /// Of a column, over the frames after the first that `counts`.
 template <typename Counts>
 double sum_after_first(const std::vector<double>& column, const Counts& counts) {
@@ -52,7 +58,9 @@ std::vector<GoalLine> frame_goals(const FlightResult& result, int goal) {
     const auto *allocations = result.find("allocations"), *uploads = result.find("blocks_uploaded");
     if (allocations != nullptr && uploads != nullptr)
         add("heap allocations of the frame thread in frames without uploads",
-            sum_after_first(*allocations, [&](std::size_t i) { return (*uploads)[i] == 0.0; }), 0.0, "");
+            sum_after_first(*allocations,
+                            [&](std::size_t i) { return (*uploads)[i] == 0.0 && !after_still(result, i); }),
+            0.0, "");
     if (const auto* pairs = result.find("new_state_pairs"))
         add("new programs and state pairs after the first frame",
             sum_after_first(*pairs, [](std::size_t) { return true; }), 0.0, "");

@@ -41,8 +41,9 @@ tl::expected<std::vector<Band>, std::string> read_bands(const std::filesystem::p
     std::ifstream stream(file);
     if (!stream) return tl::unexpected(file.string() + ": cannot be read; is the file there?");
     try {
+        const auto json = nlohmann::json::parse(stream);
         std::vector<Band> bands;
-        for (const auto& [key, band] : nlohmann::json::parse(stream).items())
+        for (const auto& [key, band] : json.items())
             bands.push_back({key, band.at("at_most").get<double>(), band.at("reason").get<std::string>()});
         return bands;
     } catch (const nlohmann::json::exception& fault) {

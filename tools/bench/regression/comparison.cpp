@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -77,6 +78,20 @@ ComparedLine compare_count(const Count& count, const std::vector<double>& before
     line.remark = fmt::format("in {} frames, first in frame {}: {:.0f}, then {:.0f}", frames,
                               first.first - before.begin() + 1, *first.first, *first.second);
     return line;
+}
+
+/// Drivers are partly in C++: their allocations count too.
+void compare_counts(const FlightResult& before, const FlightResult& after, Comparison& comparison) {
+    const bool same_gl = before.identity.gl == after.identity.gl;
+    for (const Count& count : kCounts) {
+        const auto *one = before.find(count.key), *other = after.find(count.key);
+        if (one == nullptr || other == nullptr) continue;
+        if (!same_gl && count.key == std::string_view("allocations")) {
+            comparison.notes.emplace_back("allocations: not compared, as OpenGL differs");
+        } else {
+            comparison.lines.push_back(compare_count(count, *one, *other));
+        }
+    }
 }
 
 Verdict verdict(const Interval& change, double margin) {
@@ -158,11 +173,7 @@ tl::expected<Comparison, std::string> compare(const FlightResult& before, const 
                                               const ComparisonOptions& options) {
     if (auto differs = difference(before, after)) return tl::unexpected(std::move(*differs));
     Comparison comparison;
-    for (const Count& count : kCounts) {
-        const auto *one = before.find(count.key), *other = after.find(count.key);
-        if (one != nullptr && other != nullptr)
-            comparison.lines.push_back(compare_count(count, *one, *other));
-    }
+    compare_counts(before, after, comparison);
     compare_pictures(before, after, comparison);
     compare_all(ComparedLine::Kind::Ratio, flight_ratios(before), flight_ratios(after), options.margin,
                 comparison);

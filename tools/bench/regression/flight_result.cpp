@@ -108,6 +108,7 @@ bool is_timing(const std::string& key) { return std::string_view(key).ends_with(
 FlightResult counts_of(FlightResult result) {
     std::erase_if(result.columns, [](const auto& column) { return is_timing(column.first); });
     result.figures.clear();
+    result.picture_hashes.clear();
     result.identity.machine.clear();
     return result;
 }

@@ -47,7 +47,8 @@ struct FlightResult {
 /// Columns that are the same in every run of the same program: counts and places. The others are times.
 [[nodiscard]] bool is_timing(const std::string& key);
 
-/// The result without what differs from run to run and from machine to machine.
+/// The result without what differs from run to run or from machine to machine: times, and the bits of
+/// pictures, which llvmpipe's code for another processor rounds otherwise.
 [[nodiscard]] FlightResult counts_of(FlightResult result);
 
 /// A line a column.
