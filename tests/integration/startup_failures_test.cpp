@@ -160,5 +160,11 @@ TEST_F(StartupFailure, NoClipControl) {
     expect_one_line_with(run_with_terrain({}, without), {"GL_ARB_clip_control", "driver"});
 }
 
+TEST_F(StartupFailure, ToleranceBoundsTheWrongWayRoundAreNamed) {
+    expect_one_line_with(run_with_terrain({"--set", "control.tolerance=on", "--set", "control.tau_min_px=8",
+                                           "--set", "control.tau_max_px=4"}),
+                         {"control.tau_min_px is 8", "control.tau_max_px is 4"});
+}
+
 }  // namespace
 }  // namespace eyepoint::testing
