@@ -95,10 +95,9 @@ void FrameLoop::notice_stop(std::int64_t now_ns) {
     const double stopped_s = seconds_between(std::exchange(last_turn_ns_, now_ns), now_ns);
     if (!flying_ || stopped_s < std::max(kStoppedS, kStoppedPeriods / settings_.frame.rate_hz)) return;
     fresh_until_ns_ = now_ns + kFreshNs;
-    parts_.warn(
-        fmt::format("no frame could begin for {:.1f} s (was the process stopped?); {} deadlines "
-                    "passed, frames go on with the newest eye",
-                    stopped_s, missed_));
+    parts_.warn(fmt::format(
+        "no frame could begin for {:.1f} s (was the process stopped?); frames go on with the newest eye",
+        stopped_s));
 }
 
 /// The socket's buffer keeps the oldest packets of a stop, not the newest.
@@ -155,6 +154,7 @@ void FrameLoop::begin_flight(const View& first) {
 tl::expected<void, std::string> FrameLoop::fly(const TimedEye& eye, const FrameTick& tick,
                                                const FrameStart& start) {
     constexpr double kShare = 1.0 / 8.0;  // of the newest frame in the usual one
+    constexpr double kMostNs = 1e6;       // so that a stop within a frame does not pass for usual
     if (!first_deadline_ns_) first_deadline_ns_ = tick.deadline_ns;
     auto entry = draw(eye, start);
     if (!entry) return tl::unexpected(entry.error());
@@ -166,7 +166,8 @@ tl::expected<void, std::string> FrameLoop::fly(const TimedEye& eye, const FrameT
         return shown;
     const std::int64_t shown_ns = parts_.clock.now_ns();
     entry->output_ms = ms_between(whole_ns, shown_ns);
-    usual_frame_ns_ += (static_cast<double>(shown_ns - start.now_ns) - usual_frame_ns_) * kShare;
+    const double more_ns = static_cast<double>(shown_ns - start.now_ns) - usual_frame_ns_;
+    usual_frame_ns_ += std::min(more_ns * kShare, kMostNs);
     control(*entry);
     return record(*entry);
 }

@@ -68,6 +68,7 @@ void HostMotion::stand_still(Sample sample) {
 
 bool HostMotion::observe(const net::EntityState& entity, const StateTime& time) {
     Sample sample{.entity = entity, .time = time, .stated = stated_velocity(entity)};
+    if (sample.stated && glm::length(sample.stated->ned_mps) > kFastestMps) sample.stated.reset();
     if (samples_.empty()) {
         start_from(std::move(sample));
         return false;

@@ -1,9 +1,11 @@
 #include "ig/motion/host_motion.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 
 namespace eyepoint::ig {
 namespace {
@@ -174,6 +176,42 @@ TEST(HostMotion, TurnsAsTheHostSays) {
         motion.observe(entity, {i * 33 * kMs, {}});
     }
     EXPECT_NEAR(motion.at((9 * 33 + 100) * kMs)->entity.attitude.yaw_deg, 20.0 * (0.297 + 0.1), 0.01);
+}
+
+/// Whatever a host sends, the entity that is drawn is finite, in range, and not further from the newest
+/// packet than the fastest vehicle goes in the longest time.
+RC_GTEST_PROP(HostMotion, NeverLeavesTheEarth, ()) {
+    const auto number = [](double low, double high) {
+        return low + (high - low) * *rc::gen::inRange(0, 1001) / 1000.0;
+    };
+    const auto rate = [&] { return number(-1, 1) * std::pow(10.0, *rc::gen::inRange(0, 39)); };
+    const double latitude = number(-90, 90), longitude = number(-180, 180);
+    const double spread_deg = std::pow(10.0, -*rc::gen::inRange(0, 7));
+    HostMotion motion;
+    EntityState newest;
+    std::int64_t now_ns = 0;
+    for (int i = 0; i < 12; ++i) {
+        newest = {.latitude_deg = std::clamp(latitude + number(-1, 1) * spread_deg, -90.0, 90.0),
+                  .longitude_deg = std::remainder(longitude + number(-1, 1) * spread_deg, 360.0),
+                  .altitude_m = number(-1000, 1e6),
+                  .attitude = {number(0, 360), number(-90, 90), number(-180, 180)}};
+        if (*rc::gen::arbitrary<bool>()) {
+            newest.rates =
+                EntityRates{.velocity_mps = {rate(), rate(), rate()}, .turn_deg_s = {rate(), rate(), rate()}};
+        }
+        now_ns += static_cast<std::int64_t>(std::pow(10.0, number(-1, 9.6)));
+        motion.observe(newest, {now_ns, {}});
+        const EntityState drawn =
+            motion.at(now_ns + *rc::gen::inRange(-1'000'000'000, 1'000'000'000))->entity;
+        RC_ASSERT(std::abs(drawn.latitude_deg) <= 90.0);
+        RC_ASSERT(std::abs(drawn.longitude_deg) <= 180.0);
+        RC_ASSERT(drawn.attitude.yaw_deg >= 0.0 && drawn.attitude.yaw_deg <= 360.0);
+        RC_ASSERT(std::abs(drawn.attitude.pitch_deg) <= 90.0);
+        RC_ASSERT(std::abs(drawn.attitude.roll_deg) <= 180.0);
+        // Differences may be as fast as the fastest, and a jump's tolerance more.
+        RC_ASSERT(glm::length(way_between(newest, drawn)) <=
+                  1.5 * HostMotion::kFastestMps * HostMotion::kLongestS);
+    }
 }
 
 TEST(HostMotion, ForgetsOnDemand) {
