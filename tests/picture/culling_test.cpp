@@ -85,11 +85,7 @@ TEST_P(HorizonCullingPicture, IsTheSameToTheBit) {
     EXPECT_LT(culled.triangles, all.triangles - all.triangles / 20);
 }
 
-INSTANTIATE_TEST_SUITE_P(Coarse, HorizonCullingPicture, ::testing::Values(2.0));
-
-/// Fails: up to 814 of 172,800 pixels differ, along the crests of far ridges (the known
-/// fault of terrain/lod/horizon_culling.hpp).
-INSTANTIATE_TEST_SUITE_P(DISABLED_Fine, HorizonCullingPicture, ::testing::Values(0.5, 1.0));
+INSTANTIATE_TEST_SUITE_P(Tolerances, HorizonCullingPicture, ::testing::Values(0.5, 1.0, 2.0));
 
 }  // namespace
 }  // namespace eyepoint::testing
