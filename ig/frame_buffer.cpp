@@ -53,7 +53,8 @@ tl::expected<FrameBuffer, std::string> FrameBuffer::create(PictureSize size) {
 FrameBuffer::FrameBuffer(PictureSize size)
     : size_(size),
       colour_(make_renderbuffer(GL_RGBA8, size)),
-      depth_(make_renderbuffer(GL_DEPTH_COMPONENT32F, size)) {
+      depth_(make_renderbuffer(GL_DEPTH_COMPONENT32F, size)),
+      driver_turns_rows_(epoxy_has_gl_extension("GL_MESA_pack_invert")) {
     glCreateFramebuffers(1, &framebuffer_);
     glNamedFramebufferRenderbuffer(framebuffer_, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour_);
     glNamedFramebufferRenderbuffer(framebuffer_, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_);
@@ -70,13 +71,15 @@ FrameBuffer::FrameBuffer(FrameBuffer&& other) noexcept
     : size_(other.size_),
       framebuffer_(std::exchange(other.framebuffer_, 0)),
       colour_(std::exchange(other.colour_, 0)),
-      depth_(std::exchange(other.depth_, 0)) {}
+      depth_(std::exchange(other.depth_, 0)),
+      driver_turns_rows_(other.driver_turns_rows_) {}
 
 FrameBuffer& FrameBuffer::operator=(FrameBuffer&& other) noexcept {
     std::swap(size_, other.size_);
     std::swap(framebuffer_, other.framebuffer_);
     std::swap(colour_, other.colour_);
     std::swap(depth_, other.depth_);
+    std::swap(driver_turns_rows_, other.driver_turns_rows_);
     return *this;
 }
 
@@ -90,8 +93,13 @@ void FrameBuffer::read(Picture& picture) const {
     picture.rgba.resize(Picture::bytes(size_));
     glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);
     glPixelStorei(GL_PACK_ALIGNMENT, Picture::kBytesPerPixel);
+    if (driver_turns_rows_) glPixelStorei(GL_PACK_INVERT_MESA, GL_TRUE);
     glReadPixels(0, 0, size_.width_px, size_.height_px, GL_RGBA, GL_UNSIGNED_BYTE, picture.rgba.data());
-    flip_rows(picture);
+    if (driver_turns_rows_) {
+        glPixelStorei(GL_PACK_INVERT_MESA, GL_FALSE);
+    } else {
+        flip_rows(picture);
+    }
 }
 
 void FrameBuffer::blit_to_window(PictureSize window) const {

@@ -35,6 +35,7 @@ class FrameBuffer {
     unsigned framebuffer_ = 0;
     unsigned colour_ = 0;
     unsigned depth_ = 0;
+    bool driver_turns_rows_ = false;  ///< when it is asked to: GL_MESA_pack_invert
 };
 
 }  // namespace eyepoint::ig

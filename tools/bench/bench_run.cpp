@@ -153,7 +153,7 @@ tl::expected<BenchResult, std::string> run_bench(const BenchOptions& options,
     (*scene)->load_all(eyes.front().eyepoint.view);
     (*scene)->warm_up(eyes.front().eyepoint.view);
     (void)ig::wait_for_gpu();
-    BenchResult result{context->identity(), {}, shared->manifest().name, {}, 0.0, 0};
+    BenchResult result{context->identity(), {}, shared->manifest().name, {}, 0.0, 0, {}};
     result.frames.reserve(eyes.size());
     FrameBench bench{options, **scene, *frame_buffer};
     for (const ig::FlightEye& eye : eyes) {
@@ -166,6 +166,7 @@ tl::expected<BenchResult, std::string> run_bench(const BenchOptions& options,
     }
     result.shading = (*scene)->shading();
     result.peak_resident_bytes = ig::peak_resident_bytes();
+    result.readback = time_readback(*frame_buffer);
     return result;
 }
 
@@ -208,8 +209,10 @@ std::string describe(const BenchResult& result) {
     text += row("uploaded KiB", [](const auto& frame) {
         return static_cast<double>(frame.entry.drawn.bytes_uploaded) / 1024.0;
     });
+    text += fmt::format("\nreading a frame back takes {:.3f} ms, copying as many bytes {:.3f} ms\n",
+                        result.readback.read_ms, result.readback.copy_ms);
     text +=
-        fmt::format("\nLOD selection takes {:.2f}% of the frames' CPU time\n", 100.0 * selection_ms / cpu_ms);
+        fmt::format("LOD selection takes {:.2f}% of the frames' CPU time\n", 100.0 * selection_ms / cpu_ms);
     return text;
 }
 

@@ -16,6 +16,7 @@
 #include "ig/recorded_flight.hpp"
 #include "ig/scene.hpp"
 #include "terrain/lod/lod_method.hpp"
+#include "tools/bench/readback.hpp"
 
 namespace eyepoint::tools {
 
@@ -57,6 +58,7 @@ struct BenchResult {
     std::vector<BenchFrame> frames;
     double wall_s = 0.0;  ///< of drawing alone, loads and pictures left out
     std::uint64_t peak_resident_bytes = 0;
+    ReadbackTimes readback;  ///< of the last frame
 };
 
 /// Draws every eye once, each frame waited for by a fence. Where loads are complete and the shading is not
