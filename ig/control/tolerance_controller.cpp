@@ -73,8 +73,10 @@ ControlDecision ToleranceController::next(const FrameCost& frame) {
         move(state_, expected);
     }
     if (expected.excess <= kBandAbove) blameless_tau_px_ = tau_px_;
-    const bool unreachable = state_ == ControlState::Coarsest || state_ == ControlState::Held;
-    return {tau_px_, state_, unreachable ? std::max(0.0, expected.excess) : 0.0};
+    const double stays = state_ == ControlState::Coarsest ? expected.coarsest_excess
+                         : state_ == ControlState::Held   ? expected.excess
+                                                          : 0.0;
+    return {tau_px_, state_, std::max(0.0, stays)};
 }
 
 ToleranceController::Outlook ToleranceController::outlook(const FrameCost& frame) const {

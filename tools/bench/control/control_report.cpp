@@ -89,15 +89,17 @@ nlohmann::json to_json(const StepScore& score) {
 }
 
 nlohmann::json to_json(std::span<const ControlledFrame> frames) {
-    nlohmann::json json{{"cost_ms", nlohmann::json::array()},
-                        {"tau_px", nlohmann::json::array()},
-                        {"triangles", nlohmann::json::array()},
-                        {"bytes_uploaded", nlohmann::json::array()},
-                        {"state", nlohmann::json::array()}};
+    nlohmann::json json{
+        {"cost_ms", nlohmann::json::array()},       {"tau_px", nlohmann::json::array()},
+        {"triangles", nlohmann::json::array()},     {"blocks_chosen", nlohmann::json::array()},
+        {"blocks_reused", nlohmann::json::array()}, {"bytes_uploaded", nlohmann::json::array()},
+        {"state", nlohmann::json::array()}};
     for (const ControlledFrame& frame : frames) {
         json["cost_ms"].push_back(frame.cost_ms);
         json["tau_px"].push_back(frame.tau_px);
         json["triangles"].push_back(frame.triangles);
+        json["blocks_chosen"].push_back(frame.blocks_chosen);
+        json["blocks_reused"].push_back(frame.blocks_reused);
         json["bytes_uploaded"].push_back(frame.bytes_uploaded);
         json["state"].push_back(ig::name(frame.state));
     }

@@ -14,7 +14,7 @@ std::vector<ControlledFrame> frames_of(const std::vector<double>& costs_ms) {
     std::vector<ControlledFrame> frames;
     for (const double cost_ms : costs_ms)
         frames.push_back(
-            {.cost_ms = cost_ms, .tau_px = 1.0, .triangles = 1000, .blocks_tested = 10, .blocks_reused = 9});
+            {.cost_ms = cost_ms, .tau_px = 1.0, .triangles = 1000, .blocks_reused = 9, .blocks_chosen = 1});
     return frames;
 }
 
