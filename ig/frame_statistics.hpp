@@ -12,7 +12,6 @@ struct FrameStatistics {
     std::uint32_t blocks_drawn = 0;
     std::uint32_t blocks_tested = 0;
     std::uint32_t blocks_reused = 0;  ///< of them: the choice of an earlier frame stood
-    std::uint32_t blocks_chosen = 0;  ///< of them: chosen anew; the rest was out of view
     std::uint32_t loads_pending = 0;
     std::uint32_t blocks_uploaded = 0;
     std::uint64_t bytes_uploaded = 0;

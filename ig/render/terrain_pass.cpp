@@ -105,7 +105,6 @@ FrameStatistics TerrainPass::update(const terrain::Selection& selection, std::ui
     statistics.blocks_drawn = list_.blocks();
     statistics.blocks_tested = selection.blocks_tested;
     statistics.blocks_reused = selection.blocks_reused;
-    statistics.blocks_chosen = selection.blocks_chosen;
     statistics.blocks_uploaded = static_cast<std::uint32_t>(list_.uploaded_blocks() - blocks_before);
     statistics.bytes_uploaded = list_.uploaded_bytes() - bytes_before;
     return statistics;

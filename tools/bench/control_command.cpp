@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "tools/bench/command_options.hpp"
+#include "tools/bench/control/choice_reuse.hpp"
 #include "tools/bench/control/control_report.hpp"
 #include "tools/bench/eyes.hpp"
 
@@ -80,6 +81,14 @@ nlohmann::json header(const ControlRequest& request, const ControlStage& stage) 
             {"tau_max_px", request.bounds.tau_max_px}};
 }
 
+double reuse(const ControlRequest& request, std::span<const ig::FlightEye> eyes,
+             std::span<const ControlledFrame> frames) {
+    const auto share =
+        reuse_share(request.terrain, request.lod_method, ig::SceneOptions{}.slack, eyes, frames);
+    if (!share) fail(share.error());
+    return *share;
+}
+
 TargetRun run_target(ControlStage& stage, std::span<const ig::FlightEye> eyes, const ControlRequest& request,
                      std::string name, double target_ms) {
     ig::ControlTarget target = request.bounds;
@@ -92,6 +101,8 @@ TargetRun run_target(ControlStage& stage, std::span<const ig::FlightEye> eyes, c
     }
     run.middle = score(middle_flight(run.controlled), target, target_ms, request.eyes.rate_hz);
     run.fixed = fly(stage, eyes, {{}, std::exp(run.middle.mean_log_tau), clock_of(request)});
+    run.reuse_share = reuse(request, eyes, run.controlled.front());
+    run.reuse_share_fixed = reuse(request, eyes, run.fixed);
     run.beside = score(run.fixed, target, target_ms, request.eyes.rate_hz);
     return run;
 }

@@ -24,7 +24,6 @@ nlohmann::json to_json(const TargetScore& score) {
             {"tau_min_px", score.tau_min_px},
             {"tau_max_px", score.tau_max_px},
             {"triangles_mean", score.mean_triangles},
-            {"reuse_share", score.reuse_share},
             {"reversals_per_s", score.reversals_per_s}};
 }
 
@@ -73,7 +72,8 @@ std::string describe(const TargetRun& run) {
     row("frames at a bound of tau, %", [](const auto& s) { return 100.0 * s.share_at_bounds; });
     row("reversals of tau a second", [](const auto& s) { return s.reversals_per_s; });
     row("triangles, mean", [](const auto& s) { return s.mean_triangles; });
-    row("choices of blocks reused, %", [](const auto& s) { return 100.0 * s.reuse_share; });
+    text += fmt::format("  choices of blocks reused: {:.2f}% while tau moves, {:.2f}% while it stands\n",
+                        100.0 * run.reuse_share, 100.0 * run.reuse_share_fixed);
     return text + describe_unreachable(run.controlled.front());
 }
 
@@ -98,8 +98,6 @@ nlohmann::json to_json(std::span<const ControlledFrame> frames) {
         json["cost_ms"].push_back(frame.cost_ms);
         json["tau_px"].push_back(frame.tau_px);
         json["triangles"].push_back(frame.triangles);
-        json["blocks_chosen"].push_back(frame.blocks_chosen);
-        json["blocks_reused"].push_back(frame.blocks_reused);
         json["bytes_uploaded"].push_back(frame.bytes_uploaded);
         json["state"].push_back(ig::name(frame.state));
     }
@@ -109,6 +107,8 @@ nlohmann::json to_json(std::span<const ControlledFrame> frames) {
 nlohmann::json to_json(const TargetRun& run) {
     nlohmann::json json{{"name", run.name},
                         {"floor_ms", run.floor_ms},
+                        {"reuse_share", run.reuse_share},
+                        {"reuse_share_fixed_tau", run.reuse_share_fixed},
                         {"middle", to_json(run.middle)},
                         {"fixed_tau", to_json(run.beside)},
                         {"fixed_frames", to_json(std::span(run.fixed))}};

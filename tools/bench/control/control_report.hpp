@@ -15,8 +15,9 @@ struct TargetRun {
     double floor_ms = 0.0;  ///< median of the flight at the coarsest tolerance
     std::vector<std::vector<ControlledFrame>> controlled;
     std::vector<ControlledFrame> fixed;
-    std::vector<TargetScore> each;  ///< of `controlled`
-    TargetScore middle, beside;     ///< of middle_flight(controlled), of `fixed`
+    std::vector<TargetScore> each;                      ///< of `controlled`
+    double reuse_share = 0.0, reuse_share_fixed = 0.0;  ///< reuse_share() of the first flight, of `fixed`
+    TargetScore middle, beside;                         ///< of middle_flight(controlled), of `fixed`
 };
 
 /// A table: a column a flight, the middle one, the fixed tolerance.

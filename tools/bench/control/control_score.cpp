@@ -68,7 +68,6 @@ TargetScore score(std::span<const ControlledFrame> frames, const ig::ControlTarg
     const auto count = static_cast<double>(frames.size());
     TargetScore result{.target_ms = target_ms, .tau_min_px = frames.front().tau_px};
     std::vector<double> costs;
-    double in_view = 0.0, reused = 0.0;
     for (const ControlledFrame& frame : frames) {
         costs.push_back(frame.cost_ms);
         const double ratio = frame.cost_ms / target_ms;
@@ -81,14 +80,11 @@ TargetScore score(std::span<const ControlledFrame> frames, const ig::ControlTarg
         result.tau_min_px = std::min(result.tau_min_px, frame.tau_px);
         result.tau_max_px = std::max(result.tau_max_px, frame.tau_px);
         result.mean_triangles += static_cast<double>(frame.triangles) / count;
-        in_view += frame.blocks_reused + frame.blocks_chosen;
-        reused += frame.blocks_reused;
     }
     std::ranges::sort(costs);
     result.median_ms = costs[costs.size() / 2];
     result.p99_ms = costs[std::min(costs.size() - 1, static_cast<std::size_t>(0.99 * count))];
     result.worst_ms = costs.back();
-    result.reuse_share = in_view > 0.0 ? reused / in_view : 0.0;
     result.reversals_per_s = static_cast<double>(reversals(frames)) * rate_hz / count;
     return result;
 }

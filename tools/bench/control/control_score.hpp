@@ -18,7 +18,6 @@ struct TargetScore {
     double mean_log_tau = 0.0;                  ///< of the natural logarithm of pixels
     double tau_min_px = 0.0, tau_max_px = 0.0;  ///< seen
     double mean_triangles = 0.0;
-    double reuse_share = 0.0;      ///< of the choices of blocks in view
     double reversals_per_s = 0.0;  ///< turns of tau by more than kReversal
 
     [[nodiscard]] double worst_ratio() const { return worst_ms / target_ms; }

@@ -28,8 +28,6 @@ ControlledFrame draw_frame(ig::Scene& scene, const ig::View& view, CostClock clo
     return {.cost_ms = now_ms(clock) - start_ms,
             .tau_px = drawn.tau_px,
             .triangles = drawn.triangles,
-            .blocks_reused = drawn.blocks_reused,
-            .blocks_chosen = drawn.blocks_chosen,
             .bytes_uploaded = drawn.bytes_uploaded};
 }
 

@@ -30,7 +30,6 @@ struct ControlledFrame {
     double cost_ms = 0.0;
     double tau_px = 0.0;
     std::uint64_t triangles = 0;
-    std::uint32_t blocks_reused = 0, blocks_chosen = 0;  ///< in view
     std::uint64_t bytes_uploaded = 0;
     ig::ControlState state = ig::ControlState::Steady;  ///< after the frame
     double unreachable_share = 0.0;
