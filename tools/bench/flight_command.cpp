@@ -11,7 +11,7 @@
 #include "tools/bench/allocation_count.hpp"
 #include "tools/bench/command_options.hpp"
 #include "tools/bench/eyes.hpp"
-#include "tools/bench/goals/goal_line.hpp"
+#include "tools/bench/goals/frame_goals.hpp"
 #include "tools/bench/regression/bench_result_columns.hpp"
 #include "tools/bench/regression/flight_page.hpp"
 #include "tools/report/page.hpp"
@@ -19,6 +19,9 @@
 namespace eyepoint::tools {
 
 namespace {
+
+/// Its number among the goals that are printed.
+constexpr int kFrameGoal = 10;
 
 struct FlightRequest {
     BenchOptions drawing;
@@ -31,6 +34,7 @@ struct FlightRequest {
     double until_s = 1e9;
     std::filesystem::path json, html;
     bool counts_only = false;
+    bool goals = false;
 };
 
 std::string hash_of_file(const std::filesystem::path& file) {
@@ -61,6 +65,8 @@ void write(const std::filesystem::path& file, const std::string& text) {
 
 void keep(const FlightRequest& request, const BenchResult& bench) {
     FlightResult result = flight_result(bench, identity_of(request));
+    if (request.goals)
+        for (const GoalLine& line : frame_goals(result, kFrameGoal)) fmt::print("{}\n", describe(line));
     if (request.counts_only) result = counts_of(std::move(result));
     if (!request.json.empty()) write(request.json, to_json_text(result));
     if (request.html.empty()) return;
@@ -102,6 +108,7 @@ void add_result_options(CLI::App& command, FlightRequest& request) {
     command.add_option("--json", request.json, "result to write, for eyepoint-bench compare")
         ->type_name("FILE");
     command.add_option("--html", request.html, "report to write")->type_name("FILE");
+    command.add_flag("--goals", request.goals, "print what a frame may cost beside what it costs");
     command.add_flag("--counts-only", request.counts_only,
                      "write only what is the same in every run: no times, no machine");
     command

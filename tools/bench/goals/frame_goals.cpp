@@ -64,16 +64,10 @@ std::vector<GoalLine> frame_goals(const FlightResult& result, int goal) {
     if (const auto* pairs = result.find("new_state_pairs"))
         add("new programs and state pairs after the first frame",
             sum_after_first(*pairs, [](std::size_t) { return true; }), 0.0, "");
+    const auto read_ms = result.figures.find("readback_ms"), copy_ms = result.figures.find("copy_ms");
+    if (read_ms != result.figures.end() && copy_ms != result.figures.end())
+        add("reading a frame back over copying its bytes", read_ms->second / copy_ms->second, 1.1, "");
     return lines;
-}
-
-GoalLine readback_goal(const ReadbackTimes& times, int goal) {
-    return {goal,
-            "reading a frame back over copying its bytes",
-            times.read_ms / times.copy_ms,
-            GoalLine::Sense::AtMost,
-            1.1,
-            ""};
 }
 
 }  // namespace eyepoint::tools
