@@ -1,6 +1,7 @@
 /// The static mesh that the price of level of detail is measured against draws the same triangles.
 #include <cmath>
 #include <cstdlib>
+#include <ostream>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -18,6 +19,8 @@ struct Way {
     std::string lod_method;
     ig::Shading shading = ig::Shading::Deferred;
 };
+
+void PrintTo(const Way& way, std::ostream* out) { *out << way.name; }
 
 class StillMesh : public ::testing::TestWithParam<Way> {};
 
