@@ -282,6 +282,9 @@ constexpr std::array kKeys = {
                "output", "picture_every_s", "Pictures: one every so many seconds; 0: every frame")),
     text(row<kOutput, &OutputSettings::record>(
         "output", "record", "Frame record, one JSON line a frame (docs/frame-record.md); empty: none")),
+    text(row<kOutput, &OutputSettings::trace>(
+        "output", "trace",
+        "Trace of where the time goes, for ui.perfetto.dev (docs/frame-timing.md); empty: none")),
 };
 
 }  // namespace

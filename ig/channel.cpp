@@ -66,6 +66,12 @@ Expected<std::optional<FrameRecord>> prepare_record(const config::OutputSettings
     });
 }
 
+/// Null where none is asked for.
+Expected<std::unique_ptr<Trace>> prepare_trace(const config::OutputSettings& output) {
+    if (output.trace.empty()) return nullptr;
+    return Trace::create(output.trace);
+}
+
 Expected<std::optional<terrain::Geoid>> load_geoid(const config::Settings& settings) {
     if (settings.host.altitude_datum == config::VerticalDatum::Ellipsoid) return std::nullopt;
     const auto grid = settings.terrain.geoid.empty() ? terrain::Geoid::default_grid()
@@ -129,7 +135,7 @@ Show show_of(config::Show show) {
     return Show::Terrain;
 }
 
-SceneOptions scene_options(const config::Settings& settings) {
+SceneOptions scene_options(const config::Settings& settings, const FrameTracks& tracks) {
     SceneOptions options;
     options.lod_method = settings.terrain.lod_method;
     options.tau_px = settings.terrain.tau_px;
@@ -142,6 +148,7 @@ SceneOptions scene_options(const config::Settings& settings) {
     options.sun_elevation_deg = settings.environment.sun_elevation_deg;
     options.loader_threads = settings.terrain.loader_threads;
     options.block_cache_bytes = std::uint64_t{settings.terrain.cache_mib} << 20;
+    options.tracks = tracks;
     return options;
 }
 
@@ -172,6 +179,8 @@ Expected<std::string> run_channel(const config::Settings& settings, const Channe
     if (!output) return tl::unexpected(output.error());
     auto record = prepare_record(settings.output);
     if (!record) return tl::unexpected(record.error());
+    auto trace = prepare_trace(settings.output);
+    if (!trace) return tl::unexpected(trace.error());
     auto host = net::HostLink::open({settings.host.address, settings.host.port, settings.host.answer_to});
     if (!host) return tl::unexpected(host.error());
     auto database = open_database(settings.terrain);
@@ -183,7 +192,9 @@ Expected<std::string> run_channel(const config::Settings& settings, const Channe
     if (graphics->window) *output = std::make_unique<WindowOutput>(*graphics->window);
     auto frame_buffer = FrameBuffer::create(picture_size(settings.view));
     if (!frame_buffer) return tl::unexpected(frame_buffer.error());
-    auto scene = Scene::create(*database, scene_options(settings));
+    const FrameTracks tracks =
+        *trace ? make_frame_tracks(**trace, settings.terrain.loader_threads) : FrameTracks{};
+    auto scene = Scene::create(*database, scene_options(settings, tracks));
     if (!scene) return tl::unexpected(scene.error());
 
     frame_buffer->bind();
@@ -214,6 +225,7 @@ Expected<std::string> run_channel(const config::Settings& settings, const Channe
                     .geoid = *geoid ? &**geoid : nullptr,
                     .surface = &surface,
                     .control = *control,
+                    .tracks = tracks,
                     .stop_requested = surroundings.stop_requested,
                     .warn = surroundings.warn},
                    *std::move(frame_buffer));
@@ -221,6 +233,9 @@ Expected<std::string> run_channel(const config::Settings& settings, const Channe
     const std::string summary = loop.summary().line(loop.seconds(), host->counters(), peak_resident_bytes());
     if (!ended)
         return tl::unexpected(fmt::format("{} (after {} frames)", ended.error(), loop.summary().frames()));
+    if (*trace) {
+        if (auto finished = (*trace)->finish(); !finished) return tl::unexpected(finished.error());
+    }
     return summary;
 }
 

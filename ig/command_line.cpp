@@ -37,6 +37,7 @@ constexpr KeyFlag kKeyFlags[] = {
     {"--end-after-silence", "host.end_after_silence_s", "SECONDS",
      "End so long after the host's last packet"},
     {"--record", "output.record", "FILE", "Write the frame record, one JSON line a frame"},
+    {"--trace", "output.trace", "FILE", "Write a trace of where the time goes, for ui.perfetto.dev"},
     {"--tau", "terrain.tau_px", "PIXELS", "Largest error of the drawn terrain"},
     {"--show", "render.show", "WHAT", "terrain, wireframe, or levels: a colour for every level of detail"},
 };

@@ -58,26 +58,49 @@ FrameLoop::FrameLoop(const config::Settings& settings, Parts parts, FrameBuffer 
 
 tl::expected<void, std::string> FrameLoop::run() {
     while (!ended()) {
-        const FrameTick tick = pacer_.wait();
-        const FrameStart start{parts_.clock.now_ns(), process_cpu_ms(), thread_cpu_ms()};
-        const unsigned applied = host_.hear();
-        missed_ += tick.missed;
-        if (settings_.frame.pacing == config::Pacing::Host && applied > 1) missed_ += applied - 1;
-        notice_stop(start.now_ns);
-        if (tick.on_grid) answer_host();
-        if (auto sized = follow_output_size(); !sized) return sized;
-        if (!pacer_.due(applied) || waits_for_fresh_eye(start.now_ns)) continue;
-        const auto eye = host_.eye_at(seen_at_ns(tick), reading_, frame_buffer_.size());
-        if (!eye) continue;
-        if (!flying_) {
-            begin_flight(eye->eyepoint.view);
-            continue;
-        }
-        if (shown_already(eye->eyepoint.view)) continue;
-        if (auto flown = fly(*eye, tick, start); !flown) return flown;
-        pacer_.drew();
+        if (auto turned = turn(wait()); !turned) return turned;
     }
     return parts_.output.finish();
+}
+
+FrameTick FrameLoop::wait() {
+    const Span span(parts_.tracks.frame, "wait for the turn");
+    return pacer_.wait();
+}
+
+/// One turn of the pacer: a frame, where one is due and there is something to draw.
+tl::expected<void, std::string> FrameLoop::turn(const FrameTick& tick) {
+    Span span(parts_.tracks.frame, "turn without a frame");
+    const FrameStart start{parts_.clock.now_ns(), process_cpu_ms(), thread_cpu_ms()};
+    const unsigned applied = hear(tick);
+    notice_stop(start.now_ns);
+    if (tick.on_grid) answer_host();
+    if (auto sized = follow_output_size(); !sized) return sized;
+    if (!pacer_.due(applied) || waits_for_fresh_eye(start.now_ns)) return {};
+    const auto eye = eye_of(tick);
+    if (!eye) return {};
+    if (!flying_) {
+        begin_flight(eye->eyepoint.view);
+        return {};
+    }
+    if (shown_already(eye->eyepoint.view)) return {};
+    span.call("frame", {"frame", summary_.frames() + 1});
+    if (auto flown = fly(*eye, tick, start); !flown) return flown;
+    pacer_.drew();
+    return {};
+}
+
+unsigned FrameLoop::hear(const FrameTick& tick) {
+    const Span span(parts_.tracks.frame, "host");
+    const unsigned applied = host_.hear();
+    missed_ += tick.missed;
+    if (settings_.frame.pacing == config::Pacing::Host && applied > 1) missed_ += applied - 1;
+    return applied;
+}
+
+std::optional<TimedEye> FrameLoop::eye_of(const FrameTick& tick) const {
+    const Span span(parts_.tracks.frame, "motion");
+    return host_.eye_at(seen_at_ns(tick), reading_, frame_buffer_.size());
 }
 
 bool FrameLoop::ended() {
@@ -162,8 +185,7 @@ tl::expected<void, std::string> FrameLoop::fly(const TimedEye& eye, const FrameT
     entry->missed_deadlines = std::exchange(missed_, 0);
 
     const std::int64_t whole_ns = parts_.clock.now_ns();
-    if (auto shown = parts_.output.show(frame_buffer_, {entry->frame, tick.slot, entry->time_s}); !shown)
-        return shown;
+    if (auto shown = show({entry->frame, tick.slot, entry->time_s}); !shown) return shown;
     const std::int64_t shown_ns = parts_.clock.now_ns();
     entry->output_ms = ms_between(whole_ns, shown_ns);
     const double more_ns = static_cast<double>(shown_ns - start.now_ns) - usual_frame_ns_;
@@ -200,7 +222,7 @@ tl::expected<FrameEntry, std::string> FrameLoop::draw(const TimedEye& eye, const
     still_picture_.drawn(eye.eyepoint.view, show, entry.drawn);
     for (const std::string& fault : parts_.scene.take_faults())
         parts_.warn(fault + "; an ancestor is drawn there");
-    if (!wait_for_gpu()) {
+    if (!finish_picture(entry.drawn.first_draw_ns)) {
         return tl::unexpected(
             std::string("the graphics driver did not finish a frame within 10 seconds; restart, and "
                         "update the driver if it happens again"));
@@ -214,7 +236,21 @@ tl::expected<FrameEntry, std::string> FrameLoop::draw(const TimedEye& eye, const
     return entry;
 }
 
+/// False where the graphics driver hangs.
+bool FrameLoop::finish_picture(std::int64_t first_draw_ns) const {
+    const Span span(parts_.tracks.frame, "wait for the GPU");
+    const bool whole = wait_for_gpu();
+    if (parts_.tracks.gpu.on()) parts_.tracks.gpu.add({"picture", first_draw_ns, steady_now_ns(), {}});
+    return whole;
+}
+
+tl::expected<void, std::string> FrameLoop::show(const FrameMoment& moment) {
+    const Span span(parts_.tracks.frame, "output");
+    return parts_.output.show(frame_buffer_, moment);
+}
+
 tl::expected<void, std::string> FrameLoop::record(const FrameEntry& entry) {
+    const Span span(parts_.tracks.frame, "record");
     summary_.add(entry);
     if (parts_.record == nullptr) return {};
     return parts_.record->add(to_json_line(entry));

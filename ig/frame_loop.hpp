@@ -21,6 +21,7 @@
 #include "ig/pacing/still_picture.hpp"
 #include "ig/run_summary.hpp"
 #include "ig/scene.hpp"
+#include "ig/trace/frame_tracks.hpp"
 #include "net/host_link.hpp"
 
 namespace eyepoint::ig {
@@ -47,6 +48,7 @@ class FrameLoop {
         const terrain::Geoid* geoid = nullptr;
         terrain::SurfaceHeight* surface = nullptr;
         std::optional<ControlTarget> control;  ///< none: the tolerance stands
+        FrameTracks tracks;                    ///< by default nothing is traced
         std::function<bool()> stop_requested;
         std::function<void(std::string_view)> warn;
     };
@@ -64,6 +66,12 @@ class FrameLoop {
     struct FrameStart;
 
     [[nodiscard]] bool ended();
+    [[nodiscard]] FrameTick wait();
+    [[nodiscard]] tl::expected<void, std::string> turn(const FrameTick& tick);
+    [[nodiscard]] unsigned hear(const FrameTick& tick);
+    [[nodiscard]] std::optional<TimedEye> eye_of(const FrameTick& tick) const;
+    [[nodiscard]] bool finish_picture(std::int64_t first_draw_ns) const;
+    [[nodiscard]] tl::expected<void, std::string> show(const FrameMoment& moment);
     [[nodiscard]] bool host_silent() const;
     void answer_host();
     void notice_stop(std::int64_t now_ns);

@@ -17,6 +17,7 @@ struct FrameStatistics {
     std::uint64_t bytes_uploaded = 0;
     double selection_cpu_ms = 0.0;
     double tau_px = 0.0;
+    std::int64_t first_draw_ns = 0;  ///< steady clock, when the first draw was asked for
 };
 
 }  // namespace eyepoint::ig

@@ -59,7 +59,9 @@ class TerrainScene final : public Scene {
     std::vector<std::string> take_faults() override { return pager_->take_faults(); }
 
   private:
+    void take_over_blocks();
     [[nodiscard]] const terrain::Selection& select(const View& view);
+    [[nodiscard]] FrameStatistics upload(const terrain::Selection& selection);
     [[nodiscard]] terrain::LodView lod_view_of(const View& view) const;
     void begin(const View& view);
     void draw_terrain(const View& view, Shading shading);
@@ -88,11 +90,22 @@ terrain::LodView TerrainScene::lod_view_of(const View& view) const {
 
 /// Chooses what to draw from the blocks there are and wishes for the missing ones.
 const terrain::Selection& TerrainScene::select(const View& view) {
+    const Span span(options_.tracks.frame, "selection");
     ++frame_;
     drawn_ = nullptr;
     const terrain::Selection& selection = method_->select(lod_view_of(view), pager_->tree(), frame_);
     pager_->request(selection.wishes);
     return selection;
+}
+
+void TerrainScene::take_over_blocks() {
+    const Span span(options_.tracks.frame, "taking over blocks");
+    (void)pager_->publish(kBlocksPublishedPerFrame, frame_);
+}
+
+FrameStatistics TerrainScene::upload(const terrain::Selection& selection) {
+    const Span span(options_.tracks.frame, "uploads");
+    return terrain_.update(selection, frame_);
 }
 
 /// Uniforms, viewport, an empty picture, infinitely far (reverse Z: depth 0): magenta, or plain behind wires
@@ -133,6 +146,7 @@ void TerrainScene::draw_terrain(const View& view, Shading shading) {
 }
 
 void TerrainScene::draw_shown(const View& view, const terrain::Selection& selection) {
+    const Span span(options_.tracks.frame, "draw calls");
     switch (options_.show) {
         case Show::Terrain:
             if (shading_ == Shading::Automatic)
@@ -149,7 +163,7 @@ void TerrainScene::draw_shown(const View& view, const terrain::Selection& select
 
 void TerrainScene::warm_up(const View& view) {
     begin(view);
-    (void)terrain_.update(select(view), frame_);
+    (void)upload(select(view));
     terrain_.warm_up(false);
     if (options_.shading != Shading::Forward && surface_.begin(view.width_px, view.height_px)) {
         terrain_.warm_up(true);
@@ -160,12 +174,13 @@ void TerrainScene::warm_up(const View& view) {
 }
 
 FrameStatistics TerrainScene::draw(const View& view) {
-    (void)pager_->publish(kBlocksPublishedPerFrame, frame_);
+    take_over_blocks();
     const double start_ms = thread_cpu_ms();
     const terrain::Selection& selection = select(view);
     const double selection_ms = thread_cpu_ms() - start_ms;
 
-    FrameStatistics statistics = terrain_.update(selection, frame_);
+    FrameStatistics statistics = upload(selection);
+    statistics.first_draw_ns = steady_now_ns();
     draw_shown(view, selection);
     drawn_ = &selection;
     statistics.selection_cpu_ms = selection_ms;
@@ -235,7 +250,8 @@ tl::expected<std::unique_ptr<Scene>, std::string> Scene::create(
     auto pager = terrain::Pager::create(std::move(database), {.threads = options.loader_threads,
                                                               .mesh = method->mesh_kind(),
                                                               .cell_bounds = options.horizon_culling,
-                                                              .cache_bytes = options.block_cache_bytes});
+                                                              .cache_bytes = options.block_cache_bytes,
+                                                              .on_load = trace_loads(options.tracks)});
     if (!pager) return tl::unexpected(pager.error());
     return std::make_unique<TerrainScene>(std::move(*pager), std::move(method), std::move(*terrain),
                                           std::move(*resolve), std::move(*floor), std::move(*sky), options);

@@ -29,12 +29,13 @@ tl::expected<std::unique_ptr<Pager>, std::string> Pager::create(std::shared_ptr<
                                                                 const PagerOptions& options) {
     std::unique_ptr<Pager> pager{new Pager(std::move(database), options)};
     for (TileNode& root : pager->tree_.roots()) {
-        Finished finished{root.tile, true, pager->load({root.tile, true, root.info, nullptr, 0.0})};
+        Finished finished = pager->load({root.tile, true, root.info, nullptr, 0.0}, 0);
         if (!finished.block) return tl::unexpected(finished.block.error());
         pager->place(std::move(finished), 0);
     }
     for (unsigned i = 0; i < std::max(options.threads, 1U); ++i) {
-        pager->threads_.emplace_back([raw = pager.get()](const std::stop_token& stop) { raw->run(stop); });
+        pager->threads_.emplace_back(
+            [raw = pager.get(), i](const std::stop_token& stop) { raw->run(stop, i); });
     }
     return pager;
 }
@@ -61,7 +62,7 @@ void Pager::request(std::span<const BlockRequest> wishes) {
     if (!queue_.empty()) work_.notify_all();
 }
 
-void Pager::run(const std::stop_token& stop) {
+void Pager::run(const std::stop_token& stop, unsigned thread) {
     while (true) {
         Job job;
         {
@@ -71,7 +72,7 @@ void Pager::run(const std::stop_token& stop) {
             queue_.pop_back();
             under_way_.insert(job.tile);
         }
-        Finished finished{job.tile, job.stored, load(job)};
+        Finished finished = load(job, thread);
         {
             const std::scoped_lock lock(mutex_);
             finished_.push_back(std::move(finished));
@@ -80,30 +81,46 @@ void Pager::run(const std::stop_token& stop) {
     }
 }
 
-tl::expected<std::shared_ptr<const Block>, std::string> Pager::load(const Job& job) const {
-    if (!job.stored) return interpolate(job);
-    const auto data = database_->read_block(job.tile);
+Pager::Finished Pager::load(const Job& job, unsigned thread) const {
+    using Clock = std::chrono::steady_clock;
+    BlockLoad load{job.tile, job.stored, thread, Clock::now(), {}, {}};
+    auto content = job.stored ? read(job) : interpolate(job);
+    load.read = Clock::now();
+    Finished finished{job.tile, job.stored, std::move(content).map([&](Content&& got) {
+                          return unfold_content(job, std::move(got));
+                      })};
+    load.done = Clock::now();
+    if (options_.on_load) options_.on_load(load);
+    return finished;
+}
+
+tl::expected<Pager::Content, std::string> Pager::read(const Job& job) const {
+    auto data = database_->read_block(job.tile);
     if (!data) return tl::unexpected(data.error());
-    if (!job.info.has_image) return unfold_stored(job, *data, std::nullopt);
-    auto image = database_->read_image(job.tile);
-    if (!image) return tl::unexpected(image.error());
-    return unfold_stored(job, *data, std::move(*image));
-}
-
-tl::expected<std::shared_ptr<const Block>, std::string> Pager::unfold_stored(
-    const Job& job, const BlockData& data, std::optional<ImageData> image) const {
-    if (options_.mesh == MeshKind::Grid) return unfold(data, std::move(image));
-    const auto mesh = database_->read_mesh(job.tile);
+    Content content{std::move(*data), std::nullopt, std::nullopt};
+    if (job.info.has_image) {
+        auto image = database_->read_image(job.tile);
+        if (!image) return tl::unexpected(image.error());
+        content.image = std::move(*image);
+    }
+    if (options_.mesh == MeshKind::Grid) return content;
+    auto mesh = database_->read_mesh(job.tile);
     if (!mesh) return tl::unexpected(mesh.error());
-    return unfold(data, job.info, *mesh, job.parent.get(), std::move(image), options_.cell_bounds);
+    content.mesh = std::move(*mesh);
+    return content;
 }
 
-std::shared_ptr<const Block> Pager::interpolate(const Job& job) const {
-    const BlockData data =
-        subdivide(job.parent->data, quadrant(job.tile), database_->manifest().height_step_m);
-    if (options_.mesh == MeshKind::Grid) return unfold(data, std::nullopt);
-    return unfold(data, job.info, virtual_mesh(job.info.last_level), job.parent.get(), std::nullopt,
-                  options_.cell_bounds);
+tl::expected<Pager::Content, std::string> Pager::interpolate(const Job& job) const {
+    Content content{subdivide(job.parent->data, quadrant(job.tile), database_->manifest().height_step_m),
+                    std::nullopt, std::nullopt};
+    if (options_.mesh == MeshKind::Nested) content.mesh = virtual_mesh(job.info.last_level);
+    return content;
+}
+
+std::shared_ptr<const Block> Pager::unfold_content(const Job& job, Content content) const {
+    if (!content.mesh) return unfold(std::move(content.data), std::move(content.image));
+    return unfold(std::move(content.data), job.info, *content.mesh, job.parent.get(),
+                  std::move(content.image), options_.cell_bounds);
 }
 
 std::size_t Pager::publish(std::size_t most_blocks, std::uint64_t frame) {

@@ -2,8 +2,10 @@
 /// waits.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -23,12 +25,26 @@ namespace eyepoint::terrain {
 /// tiles must not load them over and over.
 inline constexpr std::uint64_t kKeepFrames = 60;
 
+/// How one block was loaded, and when, by the steady clock.
+struct BlockLoad {
+    TileId tile;
+    bool stored = false;  ///< in the database; otherwise made from the parent
+    unsigned thread = 0;  ///< loader threads, counted from 0
+    std::chrono::steady_clock::time_point began;
+    std::chrono::steady_clock::time_point read;  ///< its content was there; then it was unfolded
+    std::chrono::steady_clock::time_point done;
+};
+
 struct PagerOptions {
     unsigned threads = 1;
     MeshKind mesh = MeshKind::Grid;  ///< what blocks are unfolded to
     bool cell_bounds = false;        ///< nested blocks get Block::bounds, for horizon culling
     /// Loaded blocks kept, bytes. Blocks in use are never dropped, so a view that needs more gets more.
     std::uint64_t cache_bytes = 512ULL << 20;
+    /// Called after each load, before it can be published, on its loader thread, so by several at once (for
+    /// the roots, by create() as thread 0, before there are any); empty: not called. It may not call the
+    /// pager.
+    std::function<void(const BlockLoad&)> on_load{};
 };
 
 /// A tile that a view would draw if it were loaded. Its parent's block is loaded.
@@ -86,12 +102,19 @@ class Pager {
         tl::expected<std::shared_ptr<const Block>, std::string> block;
     };
 
+    /// What the database holds of a tile, decoded; or made from the parent.
+    struct Content {
+        BlockData data;
+        std::optional<NestedMesh> mesh;  ///< of nested blocks
+        std::optional<ImageData> image;
+    };
+
     Pager(std::shared_ptr<const Database> database, const PagerOptions& options);
-    void run(const std::stop_token& stop);
-    [[nodiscard]] tl::expected<std::shared_ptr<const Block>, std::string> load(const Job& job) const;
-    [[nodiscard]] tl::expected<std::shared_ptr<const Block>, std::string> unfold_stored(
-        const Job& job, const BlockData& data, std::optional<ImageData> image) const;
-    [[nodiscard]] std::shared_ptr<const Block> interpolate(const Job& job) const;
+    void run(const std::stop_token& stop, unsigned thread);
+    [[nodiscard]] Finished load(const Job& job, unsigned thread) const;
+    [[nodiscard]] tl::expected<Content, std::string> read(const Job& job) const;
+    [[nodiscard]] tl::expected<Content, std::string> interpolate(const Job& job) const;
+    [[nodiscard]] std::shared_ptr<const Block> unfold_content(const Job& job, Content content) const;
     void place(Finished finished, std::uint64_t frame);
     void evict(std::uint64_t frame);
 

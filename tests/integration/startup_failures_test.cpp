@@ -120,6 +120,11 @@ TEST_F(StartupFailure, ARecordInAFolderThatIsNotThere) {
                          {"/nonexistent/a.jsonl", "--record"});
 }
 
+TEST_F(StartupFailure, ATraceInAFolderThatIsNotThere) {
+    expect_one_line_with(run_with_terrain({"--trace", "/nonexistent/a.json"}),
+                         {"/nonexistent/a.json", "--trace"});
+}
+
 TEST_F(StartupFailure, NoFfmpeg) {
     const fs::path video = scratch_.path() / "a.mp4";
     const Ending ending = run_with_terrain({"--video", video.string()}, {{"PATH", "/nonexistent"}});

@@ -29,6 +29,8 @@ struct Outputs {
     ig::Picture picture;  ///< reused
     std::optional<ig::PictureFolder> pictures;
     std::optional<ig::FrameRecord> record;
+    std::unique_ptr<ig::Trace> trace;
+    ig::FrameTracks tracks;
 };
 
 tl::expected<Outputs, std::string> open_outputs(const BenchOptions& options) {
@@ -43,14 +45,21 @@ tl::expected<Outputs, std::string> open_outputs(const BenchOptions& options) {
         if (!record) return tl::unexpected(record.error());
         outputs.record = std::move(*record);
     }
+    if (options.trace) {
+        auto trace = ig::Trace::create(*options.trace);
+        if (!trace) return tl::unexpected(trace.error());
+        outputs.trace = std::move(*trace);
+        outputs.tracks = ig::make_frame_tracks(*outputs.trace, options.scene.loader_threads);
+    }
     return outputs;
 }
 
 /// Draws frames and looks at each from all sides.
 class FrameBench {
   public:
-    FrameBench(const BenchOptions& options, ig::Scene& scene, const ig::FrameBuffer& frame_buffer)
-        : options_(options), scene_(scene), frame_buffer_(frame_buffer) {}
+    FrameBench(const BenchOptions& options, const ig::FrameTracks& tracks, ig::Scene& scene,
+               const ig::FrameBuffer& frame_buffer)
+        : options_(options), tracks_(tracks), scene_(scene), frame_buffer_(frame_buffer) {}
 
     [[nodiscard]] BenchFrame draw(const ig::FlightEye& eye, std::uint64_t number) {
         BenchFrame frame;
@@ -75,7 +84,7 @@ class FrameBench {
         entry.drawn = scene_.draw(view);
         const double asked_ms = monotonic_ms();
         const GlCensus::Count after = census_.count();
-        (void)ig::wait_for_gpu();
+        finish_picture(entry.drawn.first_draw_ns);
         entry.frame_ms = monotonic_ms() - wall_ms;
         entry.cpu_ms = ig::process_cpu_ms() - cpu_ms;
         entry.frame_thread_cpu_ms = ig::thread_cpu_ms() - thread_ms;
@@ -83,6 +92,12 @@ class FrameBench {
         frame.outside_gl_ms = asked_ms - wall_ms - (after.in_gl_ms - before.in_gl_ms);
         frame.gl_calls = after.calls - before.calls;
         frame.new_state_pairs = after.programs + after.state_pairs - before.programs - before.state_pairs;
+    }
+
+    void finish_picture(std::int64_t first_draw_ns) const {
+        const ig::Span span(tracks_.frame, "wait for the GPU");
+        (void)ig::wait_for_gpu();
+        if (tracks_.gpu.on()) tracks_.gpu.add({"picture", first_draw_ns, ig::steady_now_ns(), {}});
     }
 
     /// The frame that draw() left, as a static mesh: once to have it on the card, then timed.
@@ -98,6 +113,7 @@ class FrameBench {
     }
 
     const BenchOptions& options_;
+    const ig::FrameTracks& tracks_;
     ig::Scene& scene_;
     const ig::FrameBuffer& frame_buffer_;
     GlCensus census_;
@@ -111,20 +127,30 @@ std::uint64_t hash_of(ig::Picture& picture) {
 tl::expected<void, std::string> put_out(Outputs& outputs, const BenchOptions& options,
                                         const ig::FrameBuffer& frame_buffer, BenchFrame& frame) {
     if (outputs.record) {
+        const ig::Span span(outputs.tracks.frame, "record");
         if (auto added = outputs.record->add(ig::to_json_line(frame.entry)); !added) return added;
     }
     const bool kept = outputs.pictures && (frame.entry.frame - 1) % options.picture_every == 0;
     if (!kept && !options.hash_pictures) return {};
+    const ig::Span span(outputs.tracks.frame, "output");
     frame_buffer.read(outputs.picture);
     if (options.hash_pictures) frame.picture_hash = hash_of(outputs.picture);
     if (kept) return outputs.pictures->write(outputs.picture, frame.entry.frame);
     return {};
 }
 
+void load_all(ig::Scene& scene, const ig::FlightEye& eye, const ig::FrameTracks& tracks) {
+    const ig::Span span(tracks.frame, "loading all, not timed");
+    scene.load_all(eye.eyepoint.view);
+}
+
 tl::expected<std::unique_ptr<ig::Scene>, std::string> make_scene(
-    const BenchOptions& options, std::shared_ptr<const terrain::Database> database) {
-    if (options.method) return ig::Scene::create(std::move(database), options.scene, options.method());
-    return ig::Scene::create(std::move(database), options.scene);
+    const BenchOptions& options, const ig::FrameTracks& tracks,
+    std::shared_ptr<const terrain::Database> database) {
+    ig::SceneOptions scene = options.scene;
+    scene.tracks = tracks;
+    if (options.method) return ig::Scene::create(std::move(database), scene, options.method());
+    return ig::Scene::create(std::move(database), scene);
 }
 
 }  // namespace
@@ -140,7 +166,7 @@ tl::expected<BenchResult, std::string> run_bench(const BenchOptions& options,
     if (!context) return tl::unexpected(context.error());
     auto frame_buffer = ig::FrameBuffer::create(options.size);
     if (!frame_buffer) return tl::unexpected(frame_buffer.error());
-    auto scene = make_scene(options, shared);
+    auto scene = make_scene(options, outputs->tracks, shared);
     if (!scene) return tl::unexpected(scene.error());
 
     if (outputs->record) {
@@ -155,14 +181,18 @@ tl::expected<BenchResult, std::string> run_bench(const BenchOptions& options,
     (void)ig::wait_for_gpu();
     BenchResult result{context->identity(), {}, shared->manifest().name, {}, 0.0, 0, {}};
     result.frames.reserve(eyes.size());
-    FrameBench bench{options, **scene, *frame_buffer};
+    FrameBench bench{options, outputs->tracks, **scene, *frame_buffer};
     for (const ig::FlightEye& eye : eyes) {
-        if (options.complete) (*scene)->load_all(eye.eyepoint.view);
+        const ig::Span span(outputs->tracks.frame, "frame", {"frame", result.frames.size() + 1});
+        if (options.complete) load_all(**scene, eye, outputs->tracks);
         result.frames.push_back(bench.draw(eye, result.frames.size() + 1));
         result.wall_s += result.frames.back().entry.frame_ms * 1e-3;
         if (auto put = put_out(*outputs, options, *frame_buffer, result.frames.back()); !put) {
             return tl::unexpected(put.error());
         }
+    }
+    if (outputs->trace) {
+        if (auto finished = outputs->trace->finish(); !finished) return tl::unexpected(finished.error());
     }
     result.shading = (*scene)->shading();
     result.peak_resident_bytes = ig::peak_resident_bytes();

@@ -29,6 +29,7 @@ struct BenchOptions {
     std::optional<std::filesystem::path> pictures;  ///< folder; none: no pictures
     std::uint64_t picture_every = 1;                ///< frames
     std::optional<std::filesystem::path> record;    ///< frame record; none: no record
+    std::optional<std::filesystem::path> trace;     ///< of where the time goes; none: no trace
     /// Of every so-manieth frame the triangles are drawn as one static mesh too; 0: of none.
     std::uint64_t still_every = 0;
     bool hash_pictures = false;

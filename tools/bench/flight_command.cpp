@@ -107,6 +107,8 @@ void add_result_options(CLI::App& command, FlightRequest& request) {
         ->transform(CLI::CheckedTransformer(shadings, CLI::ignore_case));
     command.add_option("--json", request.json, "result to write, for eyepoint-bench compare")
         ->type_name("FILE");
+    command.add_option("--trace", request.drawing.trace, "trace of where the time goes, for ui.perfetto.dev")
+        ->type_name("FILE");
     command.add_option("--html", request.html, "report to write")->type_name("FILE");
     command.add_flag("--goals", request.goals, "print what a frame may cost beside what it costs");
     command.add_flag("--counts-only", request.counts_only,

@@ -4,6 +4,8 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <mutex>
+#include <set>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -114,6 +116,25 @@ void load_down_to(Pager& pager, std::uint32_t depth) {
         load(pager, wishes, at);
         parents.clear();
         for (std::size_t i = 0; i < wishes.size(); i += 4) parents.push_back(wishes[i].node);
+    }
+}
+
+TEST_F(PagerTest, EveryLoadIsToldOnceWithItsTimes) {
+    std::mutex mutex;
+    std::vector<BlockLoad> told;
+    const auto pager = open({.threads = 2, .on_load = [&](const BlockLoad& load) {
+                                 const std::scoped_lock lock(mutex);
+                                 told.push_back(load);
+                             }});
+    load_down_to(*pager, 2);
+    const std::scoped_lock lock(mutex);
+    EXPECT_EQ(told.size(), pager->counters().loaded);
+    std::set<TileId> tiles;
+    for (const BlockLoad& load : told) {
+        EXPECT_TRUE(tiles.insert(load.tile).second);
+        EXPECT_LT(load.thread, 2U);
+        EXPECT_LE(load.began, load.read);
+        EXPECT_LE(load.read, load.done);
     }
 }
 
@@ -290,7 +311,8 @@ TEST_F(PagerTest, AnUnreadableBlockIsDrawnFromItsAncestorWithoutCracks) {
 }
 
 TEST_F(PagerTest, OneThreadAndFourMakeTheSameTree) {
-    const auto one = open({.threads = 1, .cache_bytes = kPlenty}), four = open({.threads = 4, .cache_bytes = kPlenty});
+    const auto one = open({.threads = 1, .cache_bytes = kPlenty}),
+               four = open({.threads = 4, .cache_bytes = kPlenty});
     constexpr std::uint32_t kBelowTheLeaves = 6;
     for (const auto& pager : {one.get(), four.get()}) load_down_to(*pager, kBelowTheLeaves);
     EXPECT_GT(one->counters().interpolated, 0U);
