@@ -127,7 +127,13 @@ CellBoxes cell_boxes(const Block& block, const Block* parent) {
     result.origin = all.low - result.step_m;
     result.radius_m = glm::length(glm::max(-all.low, all.high) + result.step_m);
     result.levels.reserve(levels);
-    for (const LevelBoxes& level : boxes) result.levels.push_back(rounded(level, result));
+    result.level_radius_m.reserve(levels);
+    for (const LevelBoxes& level : boxes) {
+        result.levels.push_back(rounded(level, result));
+        Box whole;
+        for (const Box& box : level) whole.add(box);
+        result.level_radius_m.push_back(glm::length(glm::max(-whole.low, whole.high) + result.step_m));
+    }
     return result;
 }
 

@@ -40,6 +40,8 @@ struct CellBoxes {
     float radius_m = 0.0F;   ///< of a ball around the centre that holds all boxes
     std::uint8_t first_level = 0;
     std::vector<Level> levels;  ///< from first_level; empty for a grid
+    /// By level: of a ball around the centre that holds the boxes of that level, metres.
+    std::vector<float> level_radius_m;
 
     [[nodiscard]] int last_level() const { return first_level + static_cast<int>(levels.size()) - 1; }
     [[nodiscard]] const Level& at(int level) const {

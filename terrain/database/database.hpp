@@ -115,7 +115,7 @@ struct SourceRecord {
 };
 
 struct Manifest {
-    static constexpr int kFormatVersion = 2;
+    static constexpr int kFormatVersion = 3;
     std::string name;
     std::string created_by;       ///< program and version
     double height_step_m = 0.0;   ///< heights are whole multiples of this

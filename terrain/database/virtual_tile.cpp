@@ -1,5 +1,7 @@
 #include "terrain/database/virtual_tile.hpp"
 
+#include <algorithm>
+
 #include "terrain/database/interpolate.hpp"
 #include "terrain/lod/error_level.hpp"
 
@@ -71,7 +73,7 @@ NodeInfo subdivide(const NodeInfo& parent, TileId child) {
     NodeInfo result = parent;
     result.has_children = false;
     result.has_image = false;
-    result.first_level = bare_level(child.depth);
+    result.first_level = bare_level(child);
     result.last_level = parent.first_level;
     for (std::size_t level = kBlockLevels - 1; level > 0; --level)
         result.delta_m[level] = parent.delta_m[level - 1];
@@ -79,14 +81,18 @@ NodeInfo subdivide(const NodeInfo& parent, TileId child) {
     return result;
 }
 
-NestedMesh virtual_mesh(std::uint8_t last_level) {
+NestedMesh virtual_mesh(TileId tile, std::uint8_t last_level) {
     NestedMesh result;
     result.whole_grid = true;
     for (int row = 0; row < kBlockPosts; ++row) {
+        // A border to the polar tiles goes as theirs does, which is sooner.
+        const std::uint8_t border_level =
+            tile.depth > 0 ? virtual_post_level(tile.depth, post_latitude_deg(tile, row)) : last_level;
+        const std::uint8_t gone_level = std::min(border_level, last_level);
         for (int column = 0; column < kBlockPosts; ++column) {
             const bool stays = row % 2 == 0 && column % 2 == 0;
             const int target = row / 2 * 2 * kBlockPosts + column / 2 * 2;
-            result.gone_level.push_back(stays ? NestedMesh::kStays : last_level);
+            result.gone_level.push_back(stays ? NestedMesh::kStays : gone_level);
             result.target.push_back(static_cast<std::uint16_t>(stays ? 0 : target));
         }
     }

@@ -23,9 +23,9 @@ namespace eyepoint::terrain {
 /// side. Levels: from bare_level of the child's depth to the parent's first, which must not be 0.
 [[nodiscard]] NodeInfo subdivide(const NodeInfo& parent, TileId child);
 
-/// Nested mesh of any virtual tile: the whole grid, of which the posts that the parent does not have (odd row
-/// or column) all go at the tile's last level, an edge's along the edge, the others to the south-west end of
-/// their half of a diagonal.
-[[nodiscard]] NestedMesh virtual_mesh(std::uint8_t last_level);
+/// Nested mesh of a virtual tile: the whole grid, of which the posts that the parent does not have (odd row
+/// or column) all go at the tile's last level (those on the border to polar tiles: virtual_post_level), an
+/// edge's along the edge, the others to the south-west end of their half of a diagonal.
+[[nodiscard]] NestedMesh virtual_mesh(TileId tile, std::uint8_t last_level);
 
 }  // namespace eyepoint::terrain

@@ -26,28 +26,64 @@ inline constexpr std::uint8_t kLastLevel = 63;
         std::min(std::ceil(2.0 * std::log2(error_m / kFinestErrorM) - 1e-9), double{kLastLevel}));
 }
 
-/// Of a tolerance, the share that levels are chosen by. Every vertex moves by the level of its own distance,
-/// so a post lies between vertices that are farther than it and may be coarser than its own distance allows;
-/// measured over flights, an error exceeds its level's by up to a sixth (docs/lod.md).
-inline constexpr double kToleranceShare = 0.84;
+/// No triangle of a mesh of level k has a side longer than kLevelReachM * 2^(k/2), metres, but for those of
+/// the full-resolution grids. So what a vertex does at level k is felt within that distance of it only, and
+/// it may do it once the nearest place where it is felt, not just its own, is far enough away for the level.
+inline constexpr double kLevelReachM = 1.0 / 8.0;
 
-/// Level that a tolerance allows at a distance: lambda = 2 log2(distance * scale), with scale = share * tau /
-/// (kappa * E_0); a real number, below 0 where even level 0 is too coarse. From epsilon = kappa * delta /
-/// distance (design, "Level of detail") set equal to the share of tau.
+[[nodiscard]] inline double level_reach_m(int level) { return kLevelReachM * std::exp2(0.5 * level); }
+
+/// The finest level at which triangles may have sides so long, 0..kLastLevel.
+[[nodiscard]] inline std::uint8_t level_of_reach(double side_m) {
+    return level_of_error(side_m * (kFinestErrorM / kLevelReachM));
+}
+
+/// Of a tolerance, the share that levels are chosen by. The rest covers what the compiler does not check:
+/// vertices that slide by unequal shares, samples between the checked places of a slide (docs/lod.md).
+inline constexpr double kToleranceShare = 0.95;
+
+/// Level that a tolerance allows at a distance D: lambda = 2 log2(D * scale), a real number, below 0 where
+/// even level 0 is too coarse. A vertex may go at level k when all of the ground within its reach is so far
+/// away that E_k is within the tolerance there (epsilon = kappa * delta / distance, design, "Level of
+/// detail"): D - reach_k >= kappa * E_k / (share * tau). Both sides' k is in 2^(k/2) alone, so 1 / scale =
+/// kappa * E_0 / (share * tau) + reach_0.
 [[nodiscard]] inline double level_scale(double tau_px, double kappa_px) {
-    return kToleranceShare * tau_px / (kappa_px * kFinestErrorM);
+    return 1.0 / (kappa_px * kFinestErrorM / (kToleranceShare * tau_px) + kLevelReachM);
 }
 [[nodiscard]] inline double level_at(double distance_m, double scale) {
     return 2.0 * std::log2(std::max(distance_m * scale, 1e-9));
 }
 
-/// First level of a tile that has no stored children: the error that flat triangles between its posts have
-/// because the Earth is round (the remainder of linear interpolation, tools/terrain/compile_error.hpp). Finer
-/// levels are drawn by its virtual children; at 0 there are none. One depth less is four levels more.
-[[nodiscard]] inline std::uint8_t bare_level(std::uint32_t depth) {
+/// From this latitude on, a border of tiles of depth 7 and more, tiles are so narrow that splitting them for
+/// the size of their triangles would take thousands: there only their errors count.
+inline constexpr double kPolarLatitudeDeg = 90.0 - 180.0 / 128.0;
+inline constexpr std::uint32_t kPolarDepth = 7;
+
+[[nodiscard]] inline bool is_polar(TileId tile) {
+    const GeographicExtent sides = extent(tile);
+    return tile.depth >= kPolarDepth &&
+           (sides.south_deg >= kPolarLatitudeDeg || sides.north_deg <= -kPolarLatitudeDeg);
+}
+
+/// bare_level, by whether the tile is_polar().
+[[nodiscard]] inline std::uint8_t bare_level(std::uint32_t depth, bool polar) {
     constexpr double kRadiusM = 6.4e6;  // not less than any radius of curvature of WGS84
     const double cell_rad = post_spacing_deg(depth) * 3.14159265358979323846 / 180.0;
-    return level_of_error(kRadiusM * cell_rad * cell_rad / 8.0 * (1.0 + std::sqrt(5.0)));
+    const std::uint8_t round = level_of_error(kRadiusM * cell_rad * cell_rad / 8.0 * (1.0 + std::sqrt(5.0)));
+    if (round == 0 || polar) return round;
+    return std::max(round, level_of_reach(std::sqrt(2.0) * kRadiusM * cell_rad));
+}
+
+/// First level of a tile that has no stored children: that of the error that flat triangles between its posts
+/// have because the Earth is round (the remainder of linear interpolation, tools/terrain/compile_error.hpp)
+/// and of their size. Finer levels are drawn by its virtual children, down to the depth where the Earth is
+/// flat between posts: that has level 0 and no children.
+[[nodiscard]] inline std::uint8_t bare_level(TileId tile) { return bare_level(tile.depth, is_polar(tile)); }
+
+/// The level at which posts of a virtual tile that its parent does not have go, by the tile's depth and their
+/// latitude: the parent's bare level; of posts on a border of tiles the lower one of both sides.
+[[nodiscard]] inline std::uint8_t virtual_post_level(std::uint32_t depth, double latitude_deg) {
+    return bare_level(depth - 1, depth > kPolarDepth && std::abs(latitude_deg) >= kPolarLatitudeDeg);
 }
 
 }  // namespace eyepoint::terrain

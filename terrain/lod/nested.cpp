@@ -30,22 +30,32 @@ constexpr std::size_t kLevels = kLastLevel + 1;
 /// Rows: levels 0..63, then "always" and "never" (NestedLod::kAlways, kNever).
 using Distances = std::array<double, kLevels + 2>;
 
-/// Distance at which level_at() is so many levels, with the margin that the shader's rounding needs; scale 1.
-Distances unit_distances_m() {
+/// Distance at which level_at() is so many levels and a margin; scale 1.
+Distances unit_distances_m(double margin) {
     Distances result{};
     for (std::size_t level = 0; level < kLevels; ++level)
-        result[level] = std::exp2((static_cast<double>(level) + kLevelMargin) / 2.0);
+        result[level] = std::exp2((static_cast<double>(level) + margin) / 2.0);
     result[kLevels] = -kInfinity;
     result[kLevels + 1] = kInfinity;
     return result;
 }
 
+/// The margin is what the shader's rounding needs: for distances from which on a level is asked for,
+/// positive.
+template <int kSign>
 Distances distances_m(double scale) {
-    static const Distances unit_m = unit_distances_m();
+    static const Distances unit_m = unit_distances_m(kSign * kLevelMargin);
     Distances result = unit_m;
     for (double& distance_m : result) distance_m /= scale;
     return result;
 }
+
+/// The sum of level_reach_m of a level and all finer ones, by that of the level.
+const double kReachRow = 1.0 / (1.0 - std::sqrt(0.5));
+
+/// How far a vertex may have slid, by its distance: at each level to a vertex beside it, so all in all by the
+/// row that ends at the level asked for there. Half a level more for the slide that has begun.
+double slide_share(double scale) { return kReachRow * kLevelReachM * scale * std::exp2(0.25); }
 
 /// No point of the Earth nearer than this is behind its curve.
 double nearest_hidden_m(const Ecef& eye, double lowest_m) {
@@ -65,30 +75,35 @@ struct NestedLod::Frame {
     double scale;                 ///< of levels, by tau
     Distances nearer_m;           ///< by tau + s: a list is right from there on
     Distances farther_m;          ///< by tau: the next one would be right, too
+    Distances at_most_m;          ///< by tau + s: up to there no higher level is asked for
     double metres_a_texel;        ///< distance at which a texel of one metre is kMostPixelsATexel
     double metres_a_texel_slack;  ///< the same, of a choice once made
 
-    /// The sides of the view that may cut a tile, or nothing when it is outside.
-    /// Where the level asked for is beyond its tile's last, a vertex slides on to its parent's vertices:
-    /// triangles reach over the tile's box by up to its size. What of that is beside the view, cell_cut.hpp
-    /// leaves out.
-    static constexpr double kSlide = 3.0;
+    double slide_share;  ///< how far a vertex may have slid, by its distance
 
+    /// How far what is drawn of a tile may reach over its box. Up to its last level its triangles cover just
+    /// the tile; then the vertices on its edges slide away, to vertices of its parent.
+    [[nodiscard]] double slide_m(const Quad& quad, std::size_t lane, double middle_m2) const {
+        const double farthest_m = std::sqrt(middle_m2) + quad.radius_m[lane];
+        return std::max(slide_share * farthest_m - quad.slide_within_m[lane], 0.0);
+    }
+
+    /// The sides of the view that may cut what is drawn of a tile, or nothing when it is outside.
     [[nodiscard]] std::optional<std::uint8_t> sides_cutting(const Quad& quad, std::size_t lane,
-                                                            const glm::dvec3& middle,
+                                                            const glm::dvec3& middle, double slide_m,
                                                             std::uint8_t planes) const {
+        const double radius_m = quad.radius_m[lane];
         for (unsigned side = 0; side < 4; ++side) {
             if ((planes >> side & 1U) == 0) continue;
             const glm::dvec3& normal = view.sides[side];
             const double inward_m = glm::dot(normal, middle);
-            if (std::abs(inward_m) < kSlide * quad.radius_m[lane]) {
-                double reach_m = 0.0;
+            if (std::abs(inward_m) < radius_m + slide_m) {
+                double reach_m = slide_m;
                 for (std::size_t axis = 0; axis < 9; axis += 3) {
                     reach_m +=
                         std::abs(normal.x * quad.half_m[axis][lane] + normal.y * quad.half_m[axis + 1][lane] +
                                  normal.z * quad.half_m[axis + 2][lane]);
                 }
-                reach_m *= kSlide;
                 if (inward_m < -reach_m) return std::nullopt;
                 if (inward_m < reach_m) continue;
             } else if (inward_m < 0.0) {
@@ -99,11 +114,31 @@ struct NestedLod::Frame {
         return planes;
     }
 
-    [[nodiscard]] bool behind_horizon(const Quad& quad, std::size_t lane, double middle_m2) const {
-        const double surely_seen_m = nearest_hidden_m + quad.radius_m[lane];
+    [[nodiscard]] bool behind_horizon(const Quad& quad, std::size_t lane, double middle_m2,
+                                      double slide_m) const {
+        const double surely_seen_m = nearest_hidden_m + quad.radius_m[lane] + slide_m;
         if (middle_m2 < surely_seen_m * surely_seen_m) return false;
         const TileNode& node = quad.nodes[lane];
-        return horizon.hides(node.parent != nullptr ? node.parent->bounds : node.bounds);
+        const TileNode& around = node.parent != nullptr ? *node.parent : node;
+        return horizon.hides(node.bounds, slide_m, around.bounds.radius);
+    }
+
+    /// The same of a loaded block, by what is known of where its vertices slide to.
+    [[nodiscard]] bool behind_horizon(const TileNode& node) const {
+        const CellBoxes& boxes = node.block->cell_boxes;
+        if (boxes.levels.empty()) return false;
+        const double middle_m = glm::distance(view.eye, boxes.centre);
+        if (middle_m < nearest_hidden_m) return false;
+        const TileNode& around = node.parent != nullptr ? *node.parent : node;
+        double ball_m = 0.0;
+        for (std::size_t i = 0; i < boxes.level_radius_m.size(); ++i) {
+            ball_m = double{boxes.level_radius_m[i]};
+            if (middle_m + ball_m <= at_most_m[boxes.first_level + i])
+                return horizon.hides(boxes.centre, ball_m, around.bounds.radius);
+        }
+        const double known_m = kReachRow * level_reach_m(boxes.last_level());
+        ball_m += std::max(slide_share * (middle_m + ball_m) - known_m, 0.0);
+        return horizon.hides(boxes.centre, ball_m, around.bounds.radius);
     }
 };
 
@@ -117,7 +152,9 @@ const Selection& NestedLod::select(const LodView& view, TileTree& tree, std::uin
     odometer_m_ += glm::distance(view.eye, eye_);
     eye_ = view.eye;
     const double lowest_m = tree.lowest_height_m() - mesh_below_surface_m(view, tree.lowest_height_m());
-    const double scale = level_scale(view.tau_px, view.kappa_px), share = 1.0 + view.slack_px / view.tau_px;
+    const double scale = level_scale(view.tau_px, view.kappa_px);
+    const double slack_scale = level_scale(view.tau_px + view.slack_px, view.kappa_px);
+    const double share = 1.0 + view.slack_px / view.tau_px;
     const Frame frame{.view = view,
                       .tree = tree,
                       .number = frame_number,
@@ -125,10 +162,12 @@ const Selection& NestedLod::select(const LodView& view, TileTree& tree, std::uin
                       .horizon = {view.eye, lowest_m},
                       .nearest_hidden_m = nearest_hidden_m(view.eye, lowest_m),
                       .scale = scale,
-                      .nearer_m = distances_m(scale * share),
-                      .farther_m = distances_m(scale),
+                      .nearer_m = distances_m<1>(slack_scale),
+                      .farther_m = distances_m<1>(scale),
+                      .at_most_m = distances_m<-1>(slack_scale),
                       .metres_a_texel = view.kappa_px / kMostPixelsATexel,
-                      .metres_a_texel_slack = view.kappa_px / (kMostPixelsATexel * share)};
+                      .metres_a_texel_slack = view.kappa_px / (kMostPixelsATexel * share),
+                      .slide_share = slide_share(slack_scale)};
     selection_.draws.clear();
     selection_.wishes.clear();
     selection_.triangles = 0;
@@ -164,6 +203,7 @@ std::int32_t NestedLod::add(TileNode* nodes, std::uint32_t count) {
         quad.y[lane] = node.bounds.centre.y;
         quad.z[lane] = node.bounds.centre.z;
         quad.radius_m[lane] = glm::length(node.bounds.half_m);
+        quad.slide_within_m[lane] = kReachRow * level_reach_m(node.info.last_level);
         constexpr double kRoundingReserve = 1.0 + 1e-6;  // the vectors are kept in float
         for (int axis = 0; axis < 3; ++axis) {
             const glm::dvec3 half_m = node.bounds.axes[axis] * (node.bounds.half_m[axis] * kRoundingReserve);
@@ -201,10 +241,10 @@ void NestedLod::look_into(const Frame& frame, const Pending& pending) {
     for (std::size_t lane = 0; lane < lanes; ++lane) {
         const Quad& quad = quads_[static_cast<std::size_t>(pending.quad)];
         const glm::dvec3 middle = glm::dvec3{quad.x[lane], quad.y[lane], quad.z[lane]} - frame.view.eye;
-        const auto planes = frame.sides_cutting(quad, lane, middle, pending.planes);
-        if (!planes) continue;
         const double distance2 = glm::dot(middle, middle);
-        if (frame.behind_horizon(quad, lane, distance2)) continue;
+        const double slide_m = frame.slide_m(quad, lane, distance2);
+        const auto planes = frame.sides_cutting(quad, lane, middle, slide_m, pending.planes);
+        if (!planes || frame.behind_horizon(quad, lane, distance2, slide_m)) continue;
         if (stands(quad, lane, frame)) {
             ++selection_.blocks_reused;
         } else {
@@ -272,6 +312,7 @@ NestedLod::Pending NestedLod::next_of(std::int32_t index, std::size_t lane, std:
 void NestedLod::draw(const Pending& pending, const Frame& frame) {
     const Quad& quad = quads_[static_cast<std::size_t>(pending.quad)];
     const std::size_t lane = pending.lane;
+    if (frame.behind_horizon(quad.nodes[lane])) return;
     if (quad.split[lane]) {
         wish(quad, lane, frame);
         if (quad.nodes[lane].info.first_level > 0)

@@ -113,7 +113,7 @@ tl::expected<Pager::Content, std::string> Pager::read(const Job& job) const {
 tl::expected<Pager::Content, std::string> Pager::interpolate(const Job& job) const {
     Content content{subdivide(job.parent->data, quadrant(job.tile), database_->manifest().height_step_m),
                     std::nullopt, std::nullopt};
-    if (options_.mesh == MeshKind::Nested) content.mesh = virtual_mesh(job.info.last_level);
+    if (options_.mesh == MeshKind::Nested) content.mesh = virtual_mesh(job.tile, job.info.last_level);
     return content;
 }
 

@@ -58,7 +58,6 @@ TileBounds tile_bounds(TileId tile, double height_min_m, double height_max_m) {
             low = glm::min(low, local);
             high = glm::max(high, local);
             const glm::dvec3 scaled = unit_sphere_space(point);
-            bounds.radius = std::max(bounds.radius, glm::length(scaled));
             least_cosine = std::min(least_cosine, glm::dot(glm::normalize(scaled), bounds.direction));
         }
     }
@@ -69,7 +68,7 @@ TileBounds tile_bounds(TileId tile, double height_min_m, double height_max_m) {
     // interval.
     constexpr double kAngleMargin = 1.1;
     bounds.half_angle_rad = std::acos(std::clamp(least_cosine, -1.0, 1.0)) * kAngleMargin;
-    bounds.radius += bulge / kPolarRadiusM;
+    bounds.radius = 1.0 + std::max(height_max_m, 0.0) / kPolarRadiusM;
     return bounds;
 }
 
@@ -91,11 +90,30 @@ HorizonOccluder::HorizonOccluder(const Ecef& eye, double lowest_height_m) {
     eye_horizon_rad_ = distance > occluder_radius_ ? std::acos(occluder_radius_ / distance) : -1.0;
 }
 
-bool HorizonOccluder::hides(const TileBounds& bounds) const {
+bool HorizonOccluder::hides(const TileBounds& bounds) const { return hides(bounds, 0.0, bounds.radius); }
+
+bool HorizonOccluder::hides(const TileBounds& bounds, double beyond_m, double radius) const {
+    return hides_cone(bounds.direction, bounds.half_angle_rad + beyond_m / kPolarRadiusM, radius);
+}
+
+bool HorizonOccluder::hides(const Ecef& point) const {
+    const glm::dvec3 scaled = unit_sphere_space(point);
+    const double distance = glm::length(scaled);
+    return hides_cone(scaled / distance, 0.0, distance);
+}
+
+bool HorizonOccluder::hides(const Ecef& centre, double ball_m, double radius) const {
+    const glm::dvec3 scaled = unit_sphere_space(centre);
+    const double distance = glm::length(scaled);
+    const double sine = ball_m / kPolarRadiusM / distance;
+    return sine < 1.0 && hides_cone(scaled / distance, std::asin(sine), radius);
+}
+
+bool HorizonOccluder::hides_cone(const glm::dvec3& direction, double half_angle_rad, double radius) const {
     if (eye_horizon_rad_ < 0.0) return false;
-    const double to_middle = std::acos(std::clamp(glm::dot(eye_direction_, bounds.direction), -1.0, 1.0));
-    const double beyond_horizon = std::acos(std::min(occluder_radius_ / bounds.radius, 1.0));
-    return to_middle - bounds.half_angle_rad > eye_horizon_rad_ + beyond_horizon;
+    const double to_middle = std::acos(std::clamp(glm::dot(eye_direction_, direction), -1.0, 1.0));
+    const double beyond_horizon = std::acos(std::min(occluder_radius_ / radius, 1.0));
+    return to_middle - half_angle_rad > eye_horizon_rad_ + beyond_horizon;
 }
 
 }  // namespace eyepoint::terrain

@@ -44,8 +44,16 @@ class HorizonOccluder {
     /// True when no point of the tile can be seen over the curve of the Earth. Never true for an eye below
     /// the occluder.
     [[nodiscard]] bool hides(const TileBounds& bounds) const;
+    /// The same of what reaches beyond the tile by so many metres at most, along the ground, and as high as a
+    /// radius in the unit-sphere space (that of the tiles there).
+    [[nodiscard]] bool hides(const TileBounds& bounds, double beyond_m, double radius) const;
+    [[nodiscard]] bool hides(const Ecef& point) const;
+    /// The same of what is in a ball, and nowhere higher than that.
+    [[nodiscard]] bool hides(const Ecef& centre, double ball_m, double radius) const;
 
   private:
+    [[nodiscard]] bool hides_cone(const glm::dvec3& direction, double half_angle_rad, double radius) const;
+
     glm::dvec3 eye_direction_;
     double occluder_radius_;  ///< in the unit-sphere space
     double eye_horizon_rad_;  ///< angle at the centre from the eye to its horizon; negative: eye is below

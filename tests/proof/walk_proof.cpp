@@ -33,9 +33,7 @@ class WalkProof : public ::testing::TestWithParam<WalkPlace> {
         make_database(GetParam().terrain, scratch_.path() / "db");
 };
 
-// Known: for eyes a few metres above ground, one triangle spans many levels, and what is drawn is no level's
-// mesh: errors beyond the tolerance, up to 30 px (docs/lod.md, "What is not proven").
-TEST_P(WalkProof, DISABLED_IsWholeAndWithinTheTolerance) {
+TEST_P(WalkProof, IsWholeAndWithinTheTolerance) {
     ProvenFlight flight(database_);
     const auto views = walk(20261122, every_frame() ? 240 : 24);
     expect_sound(flight.fly(views, {.every = one_in(4), .far_m = 40000.0, .pops = false}), GetParam().name);

@@ -116,9 +116,9 @@ class Verification {
     }
 
     void check_levels(TileId tile, const NodeInfo& info) {
-        if (!info.has_children && info.first_level != bare_level(tile.depth)) {
+        if (!info.has_children && info.first_level != bare_level(tile)) {
             report(fmt::format("{}: it has no children and its first level is {}, not {}", name_of(tile),
-                               info.first_level, bare_level(tile.depth)));
+                               info.first_level, bare_level(tile)));
         }
         const std::uint8_t last = tile.depth == 0 ? kLastLevel : database_.find(parent(tile))->first_level;
         if (info.last_level != last) {

@@ -59,7 +59,7 @@ TEST_F(TwoRoots, LevelsAndMeshComeBack) {
     EXPECT_EQ(node->last_level, 63);
     const auto mesh = database->read_mesh({0, 0, 0});
     ASSERT_TRUE(mesh.has_value()) << mesh.error();
-    EXPECT_EQ(*mesh, virtual_mesh(63));
+    EXPECT_EQ(*mesh, virtual_mesh({0, 0, 0}, 63));
     EXPECT_GT(database->stored_bytes().meshes, 0U);
 }
 

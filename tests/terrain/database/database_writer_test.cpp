@@ -37,7 +37,7 @@ TEST(DatabaseWriter, RefusesAMeshThatIsNotSoundAndNamesTheTile) {
     const BlockData block = rough_block({0, 1, 0});
     NodeInfo info = wide_node();
     info.last_level = 63;
-    NestedMesh mesh = virtual_mesh(63);
+    NestedMesh mesh = virtual_mesh({0, 0, 0}, 63);
     mesh.gone_level.front() = 5;
     const auto put = writer->put({info, &block, &mesh, std::nullopt});
     ASSERT_FALSE(put.has_value());

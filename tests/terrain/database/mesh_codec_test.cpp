@@ -50,7 +50,7 @@ TEST(MeshCodec, GivesBackTheMeshOfATileWithChildren) {
     expect_round_trip(inner.mesh, inner.first_level, inner.last_level);
 }
 
-TEST(MeshCodec, GivesBackTheMeshOfAVirtualTile) { expect_round_trip(virtual_mesh(7), 3, 7); }
+TEST(MeshCodec, GivesBackTheMeshOfAVirtualTile) { expect_round_trip(virtual_mesh({0, 0, 0}, 7), 3, 7); }
 
 TEST(MeshCodec, GivesBackTheLeastMesh) { expect_round_trip(bare_mesh(), 63, 63); }
 
@@ -182,7 +182,7 @@ TEST(MeshStructure, NamesWhatIsWrong) {
 TEST(MeshStructure, CoverFindsHolesFoldsAndOverlaps) {
     NestedMesh mesh = bare_mesh();
     EXPECT_TRUE(check_cover(mesh).has_value());
-    EXPECT_TRUE(check_cover(virtual_mesh(3)).has_value());
+    EXPECT_TRUE(check_cover(virtual_mesh({0, 0, 0}, 3)).has_value());
     mesh.triangles = {0, 1, 3};
     EXPECT_FALSE(check_cover(mesh).has_value());
     mesh.triangles = {0, 1, 3, 0, 2, 3};

@@ -89,7 +89,7 @@ inline void write_two_roots(const std::filesystem::path& folder) {
     NodeInfo info = wide_node();
     info.first_level = 40;
     info.last_level = 63;
-    const NestedMesh mesh = virtual_mesh(63);
+    const NestedMesh mesh = virtual_mesh({0, 0, 0}, 63);
     ASSERT_TRUE(writer->put({info, &west, &mesh, rgb}).has_value());
     const auto committed = writer->commit(small_manifest());
     ASSERT_TRUE(committed.has_value()) << committed.error();

@@ -80,20 +80,20 @@ TEST(VirtualTile, NodeTakesTheParentsLevels) {
     EXPECT_FALSE(node.has_children);
 }
 
-// Depth 5 has cells of 180 / 1024 degrees, where the Earth's roundness is under 28 m: level 30
-// (error_level.hpp).
+// Depth 5 has cells of 180 / 1024 degrees, 27.7 km across: more than triangles of level 35 may be (22.6 km),
+// less than those of level 36 (error_level.hpp).
 TEST(VirtualTile, NodeHasTheLevelsBelowItsParents) {
     NodeInfo parent = wide_node();
-    parent.first_level = bare_level(4);
+    parent.first_level = bare_level(4, false);
     parent.last_level = 50;
     const NodeInfo node = subdivide(parent, TileId{5, 0, 0});
     EXPECT_EQ(node.last_level, parent.first_level);
-    EXPECT_EQ(node.first_level, 30);
-    EXPECT_EQ(parent.first_level, 34);
+    EXPECT_EQ(node.first_level, 36);
+    EXPECT_EQ(parent.first_level, 38);
 }
 
 TEST(VirtualTile, MeshSlidesTheOddPostsToTheParents) {
-    const NestedMesh mesh = virtual_mesh(12);
+    const NestedMesh mesh = virtual_mesh({3, 5, 2}, 12);
     EXPECT_TRUE(mesh.whole_grid);
     ASSERT_EQ(mesh.vertices(), 33U * 33U);
     const auto target = [&](std::size_t row, std::size_t column) { return mesh.target[row * 33 + column]; };

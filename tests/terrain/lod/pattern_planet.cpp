@@ -57,7 +57,7 @@ terrain::NodeInfo pattern_node(const PatternPlanet& planet, std::uint32_t depth)
     info.height_max_m = static_cast<float>(kAmplitudeM * 3.0);
     info.has_children = depth < planet.depth;
     const auto first_at = [&](std::uint32_t at) {
-        return static_cast<std::uint8_t>(terrain::bare_level(planet.depth) + 4 * (planet.depth - at));
+        return static_cast<std::uint8_t>(terrain::bare_level(planet.depth, false) + 4 * (planet.depth - at));
     };
     info.first_level = first_at(depth);
     info.last_level = depth == 0 ? terrain::kLastLevel : first_at(depth - 1);

@@ -1,9 +1,11 @@
 #include "tools/bench/measure/drawn_mesh.hpp"
 
+#include <algorithm>
 #include <array>
 #include <span>
 
 #include "terrain/lod/nested_motion.hpp"
+#include "terrain/lod/planet_horizon.hpp"
 
 namespace eyepoint::tools {
 
@@ -104,8 +106,14 @@ bool is_empty(const DrawnMesh& mesh, const MeshTriangle& triangle) {
 DrawnMesh drawn_mesh(const terrain::Selection& selection, const terrain::LodMethod& method,
                      const terrain::LodView& view, bool morph) {
     Builder builder(method, view, morph);
-    for (const BlockDraw& draw : selection.draws) builder.add(draw);
-    return builder.take();
+    double lowest_m = 0.0;
+    for (const BlockDraw& draw : selection.draws) {
+        builder.add(draw);
+        lowest_m = std::min(lowest_m, double{draw.node->info.height_min_m});
+    }
+    DrawnMesh mesh = builder.take();
+    mesh.lowest_height_m = lowest_m - terrain::mesh_below_surface_m(view, lowest_m);
+    return mesh;
 }
 
 }  // namespace eyepoint::tools

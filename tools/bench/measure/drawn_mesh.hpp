@@ -41,6 +41,7 @@ struct MeshPart {
 struct DrawnMesh {
     terrain::Ecef eye{0.0};
     std::array<glm::dvec3, 4> sides{};    ///< of the view, LodView::sides
+    double lowest_height_m = 0.0;         ///< ellipsoidal, of what is drawn
     std::vector<MeshVertex> vertices;     ///< of every part its own
     std::vector<MeshTriangle> triangles;  ///< all that are drawn, also those that have slid shut
     std::vector<MeshPart> parts;

@@ -146,11 +146,17 @@ class FaultCount {
                    glm::dot(side, glm::dvec3{b.from_eye}) < 0.0;
         };
         if (std::any_of(mesh_.sides.begin(), mesh_.sides.end(), outside)) return true;
+        if (behind_horizon(a) && behind_horizon(b)) return true;
         const auto edge = common_tile_edge(a, b);
         return edge && !area_.drawn_across(mesh_.parts[use.part].tile, *edge, a.own_place, b.own_place);
     }
 
+    [[nodiscard]] bool behind_horizon(const MeshVertex& vertex) const {
+        return horizon_.hides(mesh_.eye + glm::dvec3{vertex.from_eye});
+    }
+
     const DrawnMesh& mesh_;
+    terrain::HorizonOccluder horizon_{mesh_.eye, mesh_.lowest_height_m};
     DrawnArea area_;
     MeshFaults faults_;
 };

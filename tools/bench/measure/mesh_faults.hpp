@@ -8,8 +8,9 @@
 namespace eyepoint::tools {
 
 /// A whole mesh has every edge in two triangles with bit-equal end points, once in each direction, but for
-/// those on the edge of a tile beside which nothing is drawn, at the poles, and beside the view. Triangles
-/// that have slid shut count as what they are: three edges, one of no length and two that cancel each other.
+/// those on the edge of a tile beside which nothing is drawn, at the poles, beside the view and behind the
+/// curve of the Earth. Triangles that have slid shut count as what they are: three edges, one of no length
+/// and two that cancel each other.
 struct MeshFaults {
     std::size_t edges = 0;     ///< different ones looked at
     std::size_t borders = 0;   ///< of them: in one triangle, at the end of what is drawn

@@ -5,6 +5,7 @@
 #include <limits>
 #include <queue>
 #include <tuple>
+#include <utility>
 
 #include "terrain/block/block.hpp"
 #include "terrain/database/database.hpp"
@@ -80,12 +81,12 @@ class Collapse {
             for (const Vertex touched : collapse_edges()) touch(touched);
             collapse_inner(allowed_m(level_));
         }
-        for (float more_m = 2.0F * allowed_m(level_); vertices_left() > kMostLeft && more_m < 1e7F;
-             more_m *= 2.0F) {
+        for (least_error_m_ = 2.0F * allowed_m(level_); vertices_left() > kMostLeft && least_error_m_ < 1e7F;
+             least_error_m_ *= 2.0F) {
             used_as_target_.assign(used_as_target_.size(), -1);
             last_error_m_.assign(last_error_m_.size(), 0.0F);
             for (std::size_t v = 0; v < around_.size(); ++v) touch(static_cast<Vertex>(v));
-            collapse_inner(more_m);
+            collapse_inner(least_error_m_);
         }
         follow_targets();
         for (std::size_t t = 0; t < triangles_.size(); ++t) {
@@ -190,18 +191,14 @@ class Collapse {
         });
     }
 
-    /// Before an edge vertex goes: inner vertices whose triangles that would fold go first. Triangles made
-    /// here never need it (outlasts_edges); those of the first mesh beside a corner of a tile may.
+    /// Before an edge vertex goes: inner vertices whose triangles would fold go first. Triangles made here
+    /// never need it (outlasts_edges); those of the first mesh beside a corner of a tile may.
     void clear_way(Vertex v, Vertex target, std::vector<Vertex>& touched) {
         edges_done_ = level_ - 1;
         for (bool folds = true; folds;) {
             folds = false;
             for (const Vertex inner : in_the_way(v, target)) {
-                const auto neighbours = ring(inner);
-                const Vertex best = way_out(inner, v);
-                if (best == inner) continue;
-                touched.insert(touched.end(), neighbours.begin(), neighbours.end());
-                apply(inner, best, level_);
+                if (!move_away(inner, v, touched)) continue;
                 folds = true;
                 break;
             }
@@ -209,12 +206,33 @@ class Collapse {
         edges_done_ = level_;
     }
 
+    /// Takes an inner vertex away, or one beside it where the triangles around it are seen whole from no
+    /// corner.
+    bool move_away(Vertex inner, Vertex edge, std::vector<Vertex>& touched) {
+        std::vector<Vertex> candidates = ring(inner);
+        std::erase_if(candidates, [&](Vertex v) { return request_.fates[v].on_edge; });
+        candidates.insert(candidates.begin(), inner);
+        for (const Vertex candidate : candidates) {
+            const Vertex best = way_out(candidate, edge);
+            if (best == candidate) continue;
+            const auto neighbours = ring(candidate);
+            touched.insert(touched.end(), neighbours.begin(), neighbours.end());
+            apply(candidate, best, level_);
+            return true;
+        }
+        return false;
+    }
+
     /// A target for an inner vertex in the way of an edge vertex, whatever the error: one that leaves
-    /// triangles that outlast the edges, or some that do not at that edge vertex alone, or any.
-    [[nodiscard]] Vertex way_out(Vertex inner, Vertex edge) const {
+    /// triangles that outlast the edges, or that do so unfolded, or some that do not at that edge vertex
+    /// alone, or any.
+    [[nodiscard]] Vertex way_out(Vertex inner, Vertex edge) {
         Vertex best = best_target(inner, kNever, kNone).target;
-        if (best == inner) best = best_target(inner, kNever, edge).target;
-        if (best == inner) best = best_target(inner, kNever, kAll).target;
+        const float least_error_m = std::exchange(least_error_m_, kNever);
+        for (const Vertex excepted : {kNone, edge, kAll}) {
+            if (best == inner) best = best_target(inner, kNever, excepted).target;
+        }
+        least_error_m_ = least_error_m;
         return best;
     }
 
@@ -308,7 +326,7 @@ class Collapse {
         for (std::size_t i = 0; i < count; ++i) {
             if (is_empty(left[i])) continue;
             const float error_m =
-                surface_.error_m(left[i][0]->corner, left[i][1]->corner, left[i][2]->corner, enough_m);
+                cost_m(left[i][0]->corner, left[i][1]->corner, left[i][2]->corner, enough_m);
             if (error_m > enough_m) return kNever;
             greatest_m = std::max(greatest_m, error_m);
         }
@@ -321,6 +339,15 @@ class Collapse {
             if (!is_excepted && !outlasts_edges(triangle)) return kNever;
         }
         return greatest_m;
+    }
+
+    /// A triangle's error, or the error of the level from which it may be so large, if that is more; a number
+    /// above `enough_m` when it is more than that.
+    [[nodiscard]] float cost_m(const Corner& a, const Corner& b, const Corner& c, float enough_m) const {
+        constexpr auto kErrorASide = static_cast<float>(kMeshShare * kFinestErrorM / kLevelReachM);
+        const float by_size_m =
+            kErrorASide * std::max({surface_.side_m(a, b), surface_.side_m(b, c), surface_.side_m(c, a)});
+        return by_size_m > enough_m ? by_size_m : std::max(by_size_m, surface_.error_m(a, b, c, enough_m));
     }
 
     /// Whether a triangle stays unfolded and within its level's error whenever the edges' vertices go on.
@@ -339,7 +366,7 @@ class Collapse {
                 &at_level(triangle[0], level), &at_level(triangle[1], level), &at_level(triangle[2], level)};
             if (is_empty(corners)) return true;
             if (!counterclockwise(*corners[0], *corners[1], *corners[2])) return false;
-            const float enough_m = allowed_m(level);
+            const float enough_m = std::max(allowed_m(level), least_error_m_);
             if (surface_.error_m(corners[0]->corner, corners[1]->corner, corners[2]->corner, enough_m) >
                 enough_m)
                 return false;
@@ -439,7 +466,8 @@ class Collapse {
     const CollapseRequest& request_;
     const SampledSurface& surface_;
     int level_ = 0;
-    int edges_done_ = 0;  ///< the level that the edges' vertices have been taken to
+    float least_error_m_ = 0.0F;  ///< that is allowed whatever the level, once too many vertices are left
+    int edges_done_ = 0;          ///< the level that the edges' vertices have been taken to
     std::vector<Triangle> triangles_;
     std::vector<bool> dead_;
     std::vector<Triangle> before_;  ///< triangles_ at the start of the level; and around_, in one row

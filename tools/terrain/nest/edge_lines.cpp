@@ -66,13 +66,13 @@ class LineCollapse {
         }
     };
 
-    /// Queues a vertex by the error of the polyline without it.
+    /// Queues a vertex by the error of the polyline without it, or by its length where that asks for more.
     void weigh(std::size_t vertex) {
         const std::size_t a = before_[vertex], b = after_[vertex];
         const Ecef& from = line_.places[a];
         const Ecef step = line_.places[b] - from;
         const double length = line_.vertices[b].at - line_.vertices[a].at;
-        double greatest = 0.0;
+        double greatest = glm::length(step) * (kFinestErrorM / kLevelReachM);
         for (std::size_t i = a + 1; i < b; ++i) {
             const double share = (line_.vertices[i].at - line_.vertices[a].at) / length;
             greatest = std::max(greatest, glm::distance(line_.places[i], from + step * share));
@@ -117,6 +117,14 @@ class LineCollapse {
     std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> queue_;
     std::unordered_set<std::size_t> targets_;  ///< of this level: they stay for it
 };
+
+/// Of an edge along a parallel; of one along a meridian the tile's middle.
+double edge_latitude_deg(TileId tile, Edge edge) {
+    const GeographicExtent sides = extent(tile);
+    if (edge == Edge::South) return sides.south_deg;
+    if (edge == Edge::North) return sides.north_deg;
+    return (sides.south_deg + sides.north_deg) / 2.0;
+}
 
 class LineMaker {
   public:
@@ -180,7 +188,8 @@ class LineMaker {
 
     Line posts(TileId tile, Edge edge) {
         Line line;
-        line.level = bare_level(tile.depth);
+        line.level =
+            std::min(bare_level(tile), virtual_post_level(tile.depth + 1, edge_latitude_deg(tile, edge)));
         const auto block = heights_.read_block(tile);
         if (!block) {
             const std::scoped_lock lock(mutex_);
@@ -292,7 +301,7 @@ std::span<const LineVertex> EdgeLines::line(TileId tile, Edge edge) const {
     return root_sides_[edge == Edge::West ? tile.x : 1 - tile.x][0];
 }
 
-LineVertex EdgeLines::vertex_at(std::span<const LineVertex> line, std::uint32_t at) {
+LineVertex EdgeLines::vertex_at(std::span<const LineVertex> line, TileId tile, Edge edge, std::uint32_t at) {
     const auto found =
         std::lower_bound(line.begin(), line.end(), at,
                          [](const LineVertex& vertex, std::uint32_t place) { return vertex.at < place; });
@@ -300,7 +309,10 @@ LineVertex EdgeLines::vertex_at(std::span<const LineVertex> line, std::uint32_t 
     const std::uint32_t spacing = at & (0U - at);  // the greatest power of two that divides it
     constexpr std::uint32_t kRootSpacing = kPlaceUnits / kBlockCells;
     const auto depth = static_cast<std::uint32_t>(std::countr_zero(kRootSpacing) - std::countr_zero(spacing));
-    return {at, 0.0F, bare_level(depth - 1), at - spacing};
+    const bool along_meridian = edge == Edge::West || edge == Edge::East;
+    const double latitude_deg =
+        along_meridian ? 180.0 * at / kPlaceUnits - 90.0 : edge_latitude_deg(tile, edge);
+    return {at, 0.0F, virtual_post_level(depth, latitude_deg), at - spacing};
 }
 
 }  // namespace eyepoint::tools

@@ -13,7 +13,7 @@
 /// that the end slides along, and its triangles would fold over them.
 ///
 /// Beside a tile without children, posts of deeper tiles lie on the line too, interpolated: those of depth m
-/// go at bare_level(m - 1), into the neighbour before them, as those of virtual tiles do
+/// go at virtual_post_level(m), into the neighbour before them, as those of virtual tiles do
 /// (terrain/database/virtual_tile.hpp).
 #pragma once
 
@@ -60,8 +60,9 @@ class EdgeLines {
     /// The guards of a tile with children, one an arm.
     [[nodiscard]] std::array<MeshGuard, 4> guards(terrain::TileId tile) const;
 
-    /// What becomes of a place on a line, found or interpolated (see above).
-    [[nodiscard]] static LineVertex vertex_at(std::span<const LineVertex> line, std::uint32_t at);
+    /// What becomes of a place on the line of a tile's edge, found or interpolated (see above).
+    [[nodiscard]] static LineVertex vertex_at(std::span<const LineVertex> line, terrain::TileId tile,
+                                              terrain::Edge edge, std::uint32_t at);
 
   private:
     using Cross = std::array<std::vector<LineVertex>, 4>;

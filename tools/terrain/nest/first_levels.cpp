@@ -20,6 +20,9 @@ namespace {
 /// level.
 constexpr double kShare = 0.98;
 constexpr double kRoughness = 1.3;
+/// Sides of triangles, in posts' spacings of the tile, that leave no more of them than its grid has.
+constexpr double kSideSpacings = 2.0;
+constexpr double kMetresADegree = 111.4e3;
 /// At least: a rough spot in a flat country, a smaller and smaller share of ever larger tiles, must thin out
 /// on the way.
 constexpr int kLevelsADepth = 2;
@@ -53,7 +56,7 @@ class Survey {
             return 0;
         }
         append_deviations(*block, from_parent);
-        std::uint8_t level = bare_level(tile.depth);
+        std::uint8_t level = bare_level(tile);
         if (heights_.find(tile)->has_children) level = std::max(level, above_children(tile));
         const std::scoped_lock lock(mutex_);
         levels_[tile] = level;
@@ -81,7 +84,10 @@ class Survey {
             level_of_error(kRoughness * static_cast<double>(all[static_cast<std::size_t>(at)]));
         const auto by_children =
             static_cast<std::uint8_t>(*std::max_element(below.begin(), below.end()) + kLevelsADepth);
-        return std::min(std::max(by_relief, by_children), kLastLevel);
+        const std::uint8_t by_size =
+            is_polar(tile) ? std::uint8_t{0}
+                           : level_of_reach(kSideSpacings * kMetresADegree * post_spacing_deg(tile.depth));
+        return std::min(std::max({by_relief, by_children, by_size}), kLastLevel);
     }
 
     const Database& heights_;

@@ -12,7 +12,7 @@
 
 namespace eyepoint::tools {
 
-/// By tile. Rises by at least two from a tile to its parent; bare_level(depth) where a tile has no children.
+/// By tile. Rises by at least two from a tile to its parent; bare_level(tile) where a tile has no children.
 using FirstLevels = std::unordered_map<terrain::TileId, std::uint8_t, terrain::TileHash>;
 
 /// Any levels that rise towards the root are right; these make a tile take over when about a tile's worth of

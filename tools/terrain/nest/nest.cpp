@@ -140,10 +140,11 @@ std::vector<EdgeFate> edge_fates(TileId tile, const TriangleMesh& mesh, const Ed
             EdgeFate& fate = fates[v];
             fate.on_edge = true;
             const std::int64_t along = along_x ? vertex.x : vertex.y;
-            auto at = EdgeLines::vertex_at(line, static_cast<std::uint32_t>(start + (along >> tile.depth)));
+            auto at = EdgeLines::vertex_at(line, tile, edge,
+                                           static_cast<std::uint32_t>(start + (along >> tile.depth)));
             while (at.gone_level != NestedMesh::kStays) {
                 const std::uint8_t level = at.gone_level;
-                at = EdgeLines::vertex_at(line, at.target_at);
+                at = EdgeLines::vertex_at(line, tile, edge, at.target_at);
                 const std::int64_t place = (std::int64_t{at.at} - start) * (std::int64_t{1} << tile.depth);
                 fate.steps.push_back(
                     {level, {along_x ? place : fixed, along_x ? fixed : place, at.height_m}});

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <glm/geometric.hpp>
 
@@ -105,6 +106,19 @@ HeightSamples HeightSamples::join(const std::array<HeightSamples, 4>& children, 
     return whole.side > kMostSamples ? thinned(whole, most_between_m) : whole;
 }
 
+namespace {
+
+/// Metres between samples eastward and northward, not less than anywhere in the tile.
+std::array<float, 2> widest_spacing_m(const GeographicExtent& sides, double spacing_deg) {
+    constexpr double kMostADegreeM = 111.7e3;  // of latitude, at the poles; of longitude less
+    const double widest_deg = sides.south_deg > 0.0 ? sides.south_deg : std::max(-sides.north_deg, 0.0);
+    const double northward_m = spacing_deg * kMostADegreeM;
+    return {static_cast<float>(northward_m * std::cos(widest_deg * std::numbers::pi / 180.0)),
+            static_cast<float>(northward_m)};
+}
+
+}  // namespace
+
 SampledSurface::SampledSurface(TileId tile, const HeightSamples& samples)
     : side_(samples.side), flat_(tile.depth >= kFlatDepth), between_m_(samples.between_m) {
     const GeographicExtent sides = extent(tile);
@@ -114,6 +128,7 @@ SampledSurface::SampledSurface(TileId tile, const HeightSamples& samples)
     origin_ = to_ecef({latitude_deg, longitude_deg, EllipsoidalHeight{middle_m}});
     up_ = east_north_up(latitude_deg, longitude_deg)[2];
     const double spacing_deg = tile_side_deg(tile.depth) / (side_ - 1);
+    spacing_m_ = widest_spacing_m(sides, spacing_deg);
     for (auto& part : positions_m_)
         part.resize(flat_ && &part != positions_m_.data() ? 0 : samples.heights_m.size());
     for (int row = 0; row < side_; ++row) {
@@ -178,6 +193,16 @@ std::array<float, 3> SampledSurface::position_m(double latitude_deg, double long
     if (flat_) return {static_cast<float>(glm::dot(from_origin, up_)), 0.0F, 0.0F};
     return {static_cast<float>(from_origin.x), static_cast<float>(from_origin.y),
             static_cast<float>(from_origin.z)};
+}
+
+float SampledSurface::side_m(const Corner& a, const Corner& b) const {
+    std::array<float, 3> step{b.position_m[0] - a.position_m[0], b.position_m[1] - a.position_m[1],
+                              b.position_m[2] - a.position_m[2]};
+    if (flat_) {
+        step[1] = static_cast<float>(b.x - a.x) * spacing_m_[0];
+        step[2] = static_cast<float>(b.y - a.y) * spacing_m_[1];
+    }
+    return std::sqrt(step[0] * step[0] + step[1] * step[1] + step[2] * step[2]);
 }
 
 float SampledSurface::error_m(const Corner& a, const Corner& b, const Corner& c, float enough_m) const {

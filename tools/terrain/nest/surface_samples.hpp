@@ -59,6 +59,9 @@ class SampledSurface {
     [[nodiscard]] std::array<float, 3> position_m(double latitude_deg, double longitude_deg,
                                                   double height_m) const;
 
+    /// Distance between two corners, metres; in tiles of kFlatDepth and deeper not less, and a little more.
+    [[nodiscard]] float side_m(const Corner& a, const Corner& b) const;
+
     /// Greatest distance of the samples in a counterclockwise triangle from it, metres; a number above
     /// `enough_m` when it is more than that, as soon as that is known. Samples outside the grid are left out.
     [[nodiscard]] float error_m(const Corner& a, const Corner& b, const Corner& c, float enough_m) const;
@@ -72,6 +75,7 @@ class SampledSurface {
 
     int side_;
     bool flat_;
+    std::array<float, 2> spacing_m_{};  ///< between samples, eastward and northward, where the Earth is flat
     terrain::Ecef origin_;
     terrain::Ecef up_;
     std::array<std::vector<float>, 3> positions_m_;
