@@ -75,7 +75,7 @@ TEST_F(Corruption, AnotherFormatVersionNamesBothVersions) {
     std::string bytes = whole_;
     bytes[8] = 9;
     replace_bytes(shard_, bytes);
-    EXPECT_NE(first_fault(folder_).find("version 9, this program reads version 2"), std::string::npos)
+    EXPECT_NE(first_fault(folder_).find("version 9, this program reads version 3"), std::string::npos)
         << first_fault(folder_);
 }
 
@@ -84,7 +84,7 @@ TEST_F(Corruption, ADatabaseOfVersion1IsToBeBuiltAgain) {
     bytes[8] = 1;
     replace_bytes(shard_, bytes);
     EXPECT_EQ(first_fault(folder_), shard_.string() +
-                                        ": its format is version 1, this program reads version 2; "
+                                        ": its format is version 1, this program reads version 3; "
                                         "rebuild the database with eyepoint-terrain");
 }
 
@@ -105,9 +105,9 @@ TEST_F(Corruption, EveryTruncationOfTheManifestIsRefused) {
 TEST_F(Corruption, AManifestOfAnotherVersionNamesBothVersions) {
     const auto manifest = folder_ / "manifest.json";
     std::string text = bytes_of(manifest);
-    text.replace(text.find("\"format_version\": 2"), 19, "\"format_version\": 3");
+    text.replace(text.find("\"format_version\": 3"), 19, "\"format_version\": 4");
     replace_bytes(manifest, text);
-    EXPECT_NE(first_fault(folder_).find("version 3, this program reads version 2"), std::string::npos);
+    EXPECT_NE(first_fault(folder_).find("version 4, this program reads version 3"), std::string::npos);
 }
 
 TEST(Database, SaysWhatToDoWhereThereIsNone) {
