@@ -54,10 +54,10 @@ inline constexpr double kToleranceShare = 0.95;
     return 2.0 * std::log2(std::max(distance_m * scale, 1e-9));
 }
 
-/// From this latitude on, a border of tiles of depth 7 and more, tiles are so narrow that splitting them for
-/// the size of their triangles would take thousands: there only their errors count.
+/// From this latitude on, a border of tiles, those of this depth and deeper are so narrow that splitting
+/// tiles for the size of their triangles would take thousands: there only their errors count.
 inline constexpr double kPolarLatitudeDeg = 90.0 - 180.0 / 128.0;
-inline constexpr std::uint32_t kPolarDepth = 7;
+inline constexpr std::uint32_t kPolarDepth = 9;
 
 [[nodiscard]] inline bool is_polar(TileId tile) {
     const GeographicExtent sides = extent(tile);
