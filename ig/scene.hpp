@@ -25,7 +25,7 @@ namespace eyepoint::ig {
 
 struct SceneOptions {
     std::string lod_method = "nested";  ///< see terrain::lod_method_names()
-    double tau_px = 1.0;                 ///< tolerance, pixels
+    double tau_px = 1.0;                ///< tolerance, pixels
     double slack = 0.1;  ///< s as a share of tau: what a choice of level once made may exceed tau by
     bool morph = true;   ///< vertices slide from level to level; otherwise they jump
     bool horizon_culling = false;  ///< leave out what nearer terrain hides: the same picture; nested alone
@@ -36,7 +36,7 @@ struct SceneOptions {
     double sun_elevation_deg = 32.0;  ///< above the horizon, at the eye
     unsigned loader_threads = 1;
     std::uint64_t block_cache_bytes = 512ULL << 20;
-    FrameTracks tracks;     ///< told of selection, uploads, draw calls and loads; they outlive the scene
+    FrameTracks tracks{};   ///< told of selection, uploads, draw calls and loads; they outlive the scene
     bool sentinel = false;  ///< test aid: no sky, the clear colour stays where no terrain is drawn
 };
 
