@@ -234,6 +234,10 @@ constexpr std::array kKeys = {
             "render", "show",
             "The terrain, its triangles' edges, or its levels of detail by colour; in a window the keys N, "
             "W and L")),
+    choice(kSwitches,
+           row<kRender, &RenderSettings::hud>(
+               "render", "hud",
+               "Whether figures and graphs of the run stand in the picture's corner; in a window the key H")),
 
     number(1.0, 1000.0, row<kFrame, &FrameSettings::rate_hz>("frame", "rate_hz", "Frames a second")),
     choice(kPacings,

@@ -20,9 +20,9 @@ struct TerrainSettings {
     std::string database;  ///< folder of the terrain database
     std::string geoid;     ///< EGM96 grid (GeographicLib PGM); empty: the one built with Eyepoint
     std::string lod_method = "nested";  ///< how blocks are chosen
-    double tau_px = 1.0;                 ///< tolerance in pixels, 0.1..100
-    std::uint32_t loader_threads = 1;    ///< 1..16
-    std::uint32_t cache_mib = 512;       ///< loaded blocks kept, 64..65536
+    double tau_px = 1.0;                ///< tolerance in pixels, 0.1..100
+    std::uint32_t loader_threads = 1;   ///< 1..16
+    std::uint32_t cache_mib = 512;      ///< loaded blocks kept, 64..65536
 };
 
 struct HostSettings {
@@ -53,6 +53,7 @@ struct RenderSettings {
     Shading shading =
         Shading::Automatic;     ///< whether the terrain's shader runs with the triangles or after them
     Show show = Show::Terrain;  ///< the terrain, or how it is drawn
+    Switch hud = Switch::Off;   ///< whether figures of the run stand in the picture
 };
 
 struct FrameSettings {

@@ -11,6 +11,7 @@
 #include "ig/egl_context.hpp"
 #include "ig/frame_loop.hpp"
 #include "ig/gpu_fence.hpp"
+#include "ig/hud/hud.hpp"
 #include "ig/output/outputs.hpp"
 #include "ig/process_usage.hpp"
 #include "terrain/database/database.hpp"
@@ -152,6 +153,18 @@ SceneOptions scene_options(const config::Settings& settings, const FrameTracks& 
     return options;
 }
 
+/// None where it is not asked for and no key can. Without it a window is still worth opening.
+Expected<std::optional<Hud>> prepare_hud(const config::Settings& settings,
+                                         const ChannelSurroundings& surroundings) {
+    const bool wanted = settings.render.hud == config::Switch::On;
+    if (!wanted && settings.output.kind != config::OutputKind::Window) return std::nullopt;
+    auto hud = Hud::create(picture_size(settings.view));
+    if (hud) return std::optional{*std::move(hud)};
+    if (wanted) return tl::unexpected(hud.error());
+    surroundings.warn(hud.error());
+    return std::nullopt;
+}
+
 /// Above the middle of the database's detail.
 View warm_up_view(const terrain::Database& database, const config::ViewSettings& settings) {
     const terrain::GeographicExtent& extent = database.manifest().detail_extent;
@@ -197,6 +210,9 @@ Expected<std::string> run_channel(const config::Settings& settings, const Channe
     auto scene = Scene::create(*database, scene_options(settings, tracks));
     if (!scene) return tl::unexpected(scene.error());
 
+    auto hud = prepare_hud(settings, surroundings);
+    if (!hud) return tl::unexpected(hud.error());
+
     frame_buffer->bind();
     const View first_view = warm_up_view(**database, settings.view);
     (*scene)->warm_up(first_view);
@@ -221,6 +237,7 @@ Expected<std::string> run_channel(const config::Settings& settings, const Channe
                     .host = *host,
                     .output = **output,
                     .record = *record ? &**record : nullptr,
+                    .hud = *hud ? &**hud : nullptr,
                     .clock = clock,
                     .geoid = *geoid ? &**geoid : nullptr,
                     .surface = &surface,

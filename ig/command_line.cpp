@@ -48,7 +48,7 @@ std::string long_name(const std::string& names) { return names.substr(names.find
 struct Typed {
     std::vector<std::pair<const KeyFlag*, std::string>> key_flags;
     std::string size, pictures, video;
-    bool window = false, none = false;
+    bool window = false, none = false, hud = false;
     std::vector<std::string> set;
 };
 
@@ -83,6 +83,7 @@ void add_options(CLI::App& app, Typed& typed, CommandLine& line) {
         ->type_name("SECTION.NAME=VALUE")
         ->expected(1)
         ->take_all();
+    app.add_flag("--hud", typed.hud, "Draw figures and graphs of the run over the picture");
     app.add_flag("--print-config", line.print_config,
                  "Print the settings in force and where each came from, and end");
     app.add_flag("--gl-debug", line.gl_debug, "Log what the graphics driver has to say");
@@ -131,6 +132,7 @@ tl::expected<std::vector<config::Override>, std::string> overrides_of(const Type
     for (const auto& [flag, value] : typed.key_flags)
         overrides.push_back({flag->key, value, long_name(flag->names)});
     if (auto taken = take_size(typed.size, overrides); !taken) return tl::unexpected(taken.error());
+    if (typed.hud) overrides.push_back({"render.hud", "on", "--hud"});
     take_output(typed, overrides);
     return overrides;
 }

@@ -159,7 +159,7 @@ std::int64_t FrameLoop::seen_at_ns(const FrameTick& tick) const {
 
 bool FrameLoop::shown_already(const View& view) {
     const bool lost = parts_.output.lost_picture();
-    return settings_.frame.draw == config::DrawWhen::OnChange && !lost &&
+    return settings_.frame.draw == config::DrawWhen::OnChange && !lost && hud_drawn_ == hud_wanted() &&
            still_picture_.holds(view, parts_.output.wanted_show());
 }
 
@@ -191,6 +191,7 @@ tl::expected<void, std::string> FrameLoop::fly(const TimedEye& eye, const FrameT
     const double more_ns = static_cast<double>(shown_ns - start.now_ns) - usual_frame_ns_;
     usual_frame_ns_ += std::min(more_ns * kShare, kMostNs);
     control(*entry);
+    tell_hud(*entry);
     return record(*entry);
 }
 
@@ -219,6 +220,7 @@ tl::expected<FrameEntry, std::string> FrameLoop::draw(const TimedEye& eye, const
     frame_buffer_.bind();
     const std::int64_t draw_ns = parts_.clock.now_ns();
     entry.drawn = parts_.scene.draw(eye.eyepoint.view);
+    draw_hud();
     still_picture_.drawn(eye.eyepoint.view, show, entry.drawn);
     for (const std::string& fault : parts_.scene.take_faults())
         parts_.warn(fault + "; an ancestor is drawn there");
@@ -234,6 +236,26 @@ tl::expected<FrameEntry, std::string> FrameLoop::draw(const TimedEye& eye, const
     entry.cpu_ms = process_cpu_ms() - start.process_cpu_ms;
     entry.frame_thread_cpu_ms = thread_cpu_ms() - start.thread_cpu_ms;
     return entry;
+}
+
+bool FrameLoop::hud_wanted() const {
+    return parts_.hud != nullptr &&
+           (settings_.render.hud == config::Switch::On) != parts_.output.hud_switched();
+}
+
+void FrameLoop::draw_hud() {
+    hud_drawn_ = hud_wanted();
+    if (!hud_drawn_) return;
+    const Span span(parts_.tracks.frame, "HUD");
+    frame_buffer_.bind();
+    parts_.hud->draw(frame_buffer_.size());
+}
+
+/// What the next frame's HUD shows.
+void FrameLoop::tell_hud(const FrameEntry& entry) {
+    if (parts_.hud == nullptr) return;
+    parts_.hud->take({entry, settings_.frame.pacing, settings_.frame.rate_hz, host_.silent_s(),
+                      hud_wanted() ? resident_bytes() : 0});
 }
 
 /// False where the graphics driver hangs.

@@ -16,6 +16,7 @@
 #include "ig/frame_clock.hpp"
 #include "ig/frame_record.hpp"
 #include "ig/heard_host.hpp"
+#include "ig/hud/hud.hpp"
 #include "ig/output/output.hpp"
 #include "ig/pacing/pacer.hpp"
 #include "ig/pacing/still_picture.hpp"
@@ -44,6 +45,7 @@ class FrameLoop {
         net::HostLink& host;
         Output& output;
         FrameRecord* record = nullptr;  ///< may be null
+        Hud* hud = nullptr;             ///< null: none, whatever settings and output say
         Clock& clock;
         const terrain::Geoid* geoid = nullptr;
         terrain::SurfaceHeight* surface = nullptr;
@@ -70,6 +72,9 @@ class FrameLoop {
     [[nodiscard]] tl::expected<void, std::string> turn(const FrameTick& tick);
     [[nodiscard]] unsigned hear(const FrameTick& tick);
     [[nodiscard]] std::optional<TimedEye> eye_of(const FrameTick& tick) const;
+    [[nodiscard]] bool hud_wanted() const;
+    void draw_hud();
+    void tell_hud(const FrameEntry& entry);
     [[nodiscard]] bool finish_picture(std::int64_t first_draw_ns) const;
     [[nodiscard]] tl::expected<void, std::string> show(const FrameMoment& moment);
     [[nodiscard]] bool host_silent() const;
@@ -94,6 +99,7 @@ class FrameLoop {
     HeardHost host_;
     RunSummary summary_;
     StillPicture still_picture_;
+    bool hud_drawn_ = false;  ///< in the last frame
     std::optional<ToleranceController> controller_;
     std::optional<ControlLog> control_log_;
     std::uint32_t ticks_ = 0;

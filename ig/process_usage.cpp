@@ -1,8 +1,11 @@
 #include "ig/process_usage.hpp"
 
 #include <ctime>
+#include <fstream>
 
 #include <sys/resource.h>
+
+#include <unistd.h>
 
 namespace eyepoint::ig {
 
@@ -19,6 +22,12 @@ double read_cpu_ms(clockid_t id) {
 double process_cpu_ms() { return read_cpu_ms(CLOCK_PROCESS_CPUTIME_ID); }
 
 double thread_cpu_ms() { return read_cpu_ms(CLOCK_THREAD_CPUTIME_ID); }
+
+std::uint64_t resident_bytes() {
+    std::uint64_t all_pages = 0, resident_pages = 0;
+    std::ifstream("/proc/self/statm") >> all_pages >> resident_pages;
+    return resident_pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
 
 std::uint64_t peak_resident_bytes() {
     rusage usage{};

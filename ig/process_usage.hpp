@@ -9,6 +9,8 @@ namespace eyepoint::ig {
 [[nodiscard]] double process_cpu_ms();
 /// CPU time of the calling thread, milliseconds.
 [[nodiscard]] double thread_cpu_ms();
+/// Resident memory now, bytes; 0 where the system does not say.
+[[nodiscard]] std::uint64_t resident_bytes();
 /// Largest resident memory so far, bytes.
 [[nodiscard]] std::uint64_t peak_resident_bytes();
 

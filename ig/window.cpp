@@ -84,6 +84,7 @@ void Window::hear_key(GLFWwindow* window, int key, int, int action, int) {
     if (key == GLFW_KEY_N) heard.show = Show::Terrain;
     if (key == GLFW_KEY_W) heard.show = Show::Wireframe;
     if (key == GLFW_KEY_L) heard.show = Show::Levels;
+    if (key == GLFW_KEY_H) heard.hud_switched = !heard.hud_switched;
 }
 
 void Window::hear_damage(GLFWwindow* window) {
@@ -93,6 +94,8 @@ void Window::hear_damage(GLFWwindow* window) {
 bool Window::take_damage() { return std::exchange(heard_->damaged, false); }
 
 std::optional<Show> Window::wanted_show() const { return heard_->show; }
+
+bool Window::hud_switched() const { return heard_->hud_switched; }
 
 void Window::handle_events() { glfwPollEvents(); }
 

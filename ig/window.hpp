@@ -36,6 +36,8 @@ class Window {
     /// What the newest of the keys N (normal), W (wireframe) and L (levels) asked for; none before one was
     /// hit.
     [[nodiscard]] std::optional<Show> wanted_show() const;
+    /// Whether the key H has been hit an odd number of times.
+    [[nodiscard]] bool hud_switched() const;
     /// True once after the window's content was lost (uncovered, resized).
     [[nodiscard]] bool take_damage();
     /// Takes in the keyboard and the window's events; once a frame.
@@ -57,6 +59,7 @@ class Window {
     /// What the window's callbacks have heard.
     struct Heard {
         std::optional<Show> show;
+        bool hud_switched = false;
         bool damaged = false;
     };
     static void hear_key(GLFWwindow* window, int key, int scancode, int action, int modifiers);

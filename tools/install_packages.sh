@@ -8,6 +8,8 @@ packages=(
     ca-certificates cmake g++ git ninja-build pkg-config
     # OpenGL without a display, and windows
     libegl1 libegl-mesa0 libgl1-mesa-dri libegl-dev libepoxy-dev libglfw3-dev libglm-dev
+    # the HUD, whose OpenGL functions Dear ImGui takes from libGL
+    libgl1 libimgui-dev
     # the Earth
     libgdal-dev libgeographiclib-dev proj-data
     # files, pictures, video

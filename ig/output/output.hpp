@@ -34,6 +34,8 @@ class Output {
     [[nodiscard]] virtual std::optional<PictureSize> wanted_size() const { return std::nullopt; }
     /// What frames are to show from now on, if the output has a say in it.
     [[nodiscard]] virtual std::optional<Show> wanted_show() const { return std::nullopt; }
+    /// True where the user has switched the HUD to the other of what the settings say.
+    [[nodiscard]] virtual bool hud_switched() const { return false; }
     /// True where what was shown has been lost since the last call (a window uncovered) and wants a new
     /// frame.
     [[nodiscard]] virtual bool lost_picture() { return false; }

@@ -50,6 +50,7 @@ class WindowOutput final : public Output {
     tl::expected<void, std::string> show(const FrameBuffer& frame, const FrameMoment& moment) override;
     std::optional<PictureSize> wanted_size() const override { return window_.size(); }
     std::optional<Show> wanted_show() const override { return window_.wanted_show(); }
+    bool hud_switched() const override { return window_.hud_switched(); }
     bool lost_picture() override { return window_.take_damage(); }
     bool keep_going() override;
 

@@ -27,7 +27,7 @@ TEST(CommandLine, FlagsBecomeSettings) {
                      "127.0.0.1", "--port",   "6001",       "--rate",   "30",    "--size",
                      "640x480",   "--fov",    "55.5",       "--frames", "12",    "--end-after-silence",
                      "2.5",       "--record", "r.jsonl",    "--tau",    "3",     "--show",
-                     "levels"});
+                     "levels",    "--trace",  "t.json",     "--hud"});
     EXPECT_EQ(settings.terrain.database, "world.db");
     EXPECT_EQ(settings.output.kind, config::OutputKind::Video);
     EXPECT_EQ(settings.output.path, "a.mp4");
@@ -42,6 +42,8 @@ TEST(CommandLine, FlagsBecomeSettings) {
     EXPECT_EQ(settings.output.record, "r.jsonl");
     EXPECT_EQ(settings.terrain.tau_px, 3.0);
     EXPECT_EQ(settings.render.show, config::Show::Levels);
+    EXPECT_EQ(settings.output.trace, "t.json");
+    EXPECT_EQ(settings.render.hud, config::Switch::On);
 }
 
 TEST(CommandLine, SetTakesAnyKeyManyTimesAndANamedFlagWins) {

@@ -113,6 +113,14 @@ DrawnPicture Renderer::draw_still(const ig::View& view) {
     return drawn;
 }
 
+ig::Picture Renderer::draw_over(const std::function<void()>& draw) {
+    ig::Picture picture;
+    frame_buffer_.bind();
+    draw();
+    frame_buffer_.read(picture);
+    return picture;
+}
+
 void write_png(const ig::Picture& picture, const std::string& file) {
     const OIIO::ImageSpec spec(picture.size.width_px, picture.size.height_px, 3, OIIO::TypeDesc::UINT8);
     OIIO::ImageBuf image(spec);

@@ -1,6 +1,7 @@
 /// The product's own way from a host's words to a picture, for one test.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -49,6 +50,8 @@ class Renderer {
     [[nodiscard]] DrawnPicture draw_floor(const ig::View& view);
     /// What draw_still leaves of the view that was drawn last.
     [[nodiscard]] DrawnPicture draw_still(const ig::View& view);
+    /// What `draw` makes of the last picture, whose frame buffer is bound for it.
+    [[nodiscard]] ig::Picture draw_over(const std::function<void()>& draw);
     [[nodiscard]] ig::Shading shading() const { return scene_->shading(); }
 
     [[nodiscard]] const ig::GlIdentity& gl() const { return context_.identity(); }
