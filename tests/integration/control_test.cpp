@@ -14,7 +14,7 @@ TEST_F(Run, WithoutAWindowTheToleranceStandsUnlessItIsAskedToMove) {
     ASSERT_EQ(lines.size(), 21U);
     for (std::size_t frame = 1; frame < lines.size(); ++frame) {
         EXPECT_EQ(lines[frame]["control"], "off");
-        EXPECT_EQ(lines[frame]["tau_px"], 1.0);
+        EXPECT_EQ(lines[frame]["tau_px"], 2.0);
     }
     EXPECT_EQ(log_.find("timer queries"), std::string::npos) << log_;
 }

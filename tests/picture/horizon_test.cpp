@@ -22,6 +22,7 @@ struct Ground {
     std::string name;
     double latitude_deg = 0.0;
     double longitude_deg = 0.0;
+    std::string lod_method = "regular";
 };
 
 void PrintTo(const Ground& ground, std::ostream* out) { *out << ground.name; }
@@ -90,7 +91,9 @@ TEST_P(Horizon, IsWhereTheEllipsoidHasItWithinAPixel) {
         .half_size_deg = 0.01, .detail_depth = 1, .planet_depth = 1, .amplitude_m = 0.0};
     ig::SceneOptions options;
     options.sentinel = true;
-    // The default tolerance, 2 px: the curve of the Earth is held closer than that.
+    // Regular blocks hold the curve of the Earth closer than their tolerance, nested meshes to it.
+    options.lod_method = GetParam().lod_method;
+    options.tau_px = options.lod_method == "nested" ? 1.0 : 2.0;
     Renderer renderer(make_database(bare, scratch.path() / "terrain"), {1920, 1080}, options);
     constexpr std::array<double, 6> kHeightsM{2.0, 50.0, 1500.0, 12e3, 100e3, 400e3};
     constexpr std::array<double, 6> kAzimuthsDeg{0.0, 77.0, 161.0, 200.0, 270.0, 338.0};
@@ -123,7 +126,11 @@ TEST_P(Horizon, IsWhereTheEllipsoidHasItWithinAPixel) {
 INSTANTIATE_TEST_SUITE_P(Earth, Horizon,
                          ::testing::Values(Ground{"Equator", 0.0, 10.0}, Ground{"North47", 47.0, 8.0},
                                            Ground{"South60Antimeridian", -60.0, 179.9999},
-                                           Ground{"NorthPole", 89.995, 120.0}),
+                                           Ground{"NorthPole", 89.995, 120.0},
+                                           Ground{"EquatorNested", 0.0, 10.0, "nested"},
+                                           Ground{"North47Nested", 47.0, 8.0, "nested"},
+                                           Ground{"South60AntimeridianNested", -60.0, 179.9999, "nested"},
+                                           Ground{"NorthPoleNested", 89.995, 120.0, "nested"}),
                          [](const auto& instance) { return instance.param.name; });
 
 }  // namespace
