@@ -140,7 +140,12 @@ Selection CellCut::cut(const LodView& view, std::span<const std::uint8_t> sides,
     kept_.clear();
     for (std::size_t i = 0; i < selection.draws.size(); ++i)
         cut_block(frame, selection.draws[i], sides[i], selection);
+    // Both rows hold as much from here on: else the one that is swapped in would grow in a later, steady
+    // frame.
+    selection.draws.clear();
+    selection.draws.reserve(kept_.capacity());
     kept_.swap(selection.draws);
+    kept_.reserve(selection.draws.capacity());
     return selection;
 }
 
