@@ -27,8 +27,9 @@ inline constexpr std::uint8_t kLastLevel = 63;
 }
 
 /// No triangle of a mesh of level k has a side longer than kLevelReachM * 2^(k/2), metres, but for those of
-/// the full-resolution grids. So what a vertex does at level k is felt within that distance of it only, and
-/// it may do it once the nearest place where it is felt, not just its own, is far enough away for the level.
+/// the full-resolution grids, of polar tiles, and the exceptions of the compiler (docs/lod.md, "Collapse").
+/// So what a vertex does at level k is felt within that distance of it only, and it may do it once the
+/// nearest place where it is felt, not just its own, is far enough away for the level.
 inline constexpr double kLevelReachM = 1.0 / 8.0;
 
 [[nodiscard]] inline double level_reach_m(int level) { return kLevelReachM * std::exp2(0.5 * level); }
