@@ -192,7 +192,8 @@ FrameStatistics TerrainScene::draw(const View& view) {
 void TerrainScene::draw_floor(const View& view) {
     begin(view);
     terrain_.draw_depth();
-    floor_.draw(terrain_.list(), terrain_.noise());
+    if (terrain_.list().blocks() > 0)
+        floor_.draw(terrain_.terrain(), terrain_.list().slot(0), terrain_.noise());
     if (!options_.sentinel) sky_.draw();
 }
 
@@ -239,11 +240,12 @@ tl::expected<std::unique_ptr<Scene>, std::string> Scene::create(
 tl::expected<std::unique_ptr<Scene>, std::string> Scene::create(
     std::shared_ptr<const terrain::Database> database, const SceneOptions& options,
     std::unique_ptr<terrain::LodMethod> method) {
+    const bool nested = method->mesh_kind() == terrain::MeshKind::Nested;
     auto terrain = TerrainPass::create(*method);
     if (!terrain) return tl::unexpected(terrain.error());
-    auto resolve = ResolvePass::create();
+    auto resolve = ResolvePass::create(nested);
     if (!resolve) return tl::unexpected(resolve.error());
-    auto floor = FloorPass::create();
+    auto floor = FloorPass::create(nested);
     if (!floor) return tl::unexpected(floor.error());
     auto sky = SkyPass::create();
     if (!sky) return tl::unexpected(sky.error());

@@ -5,19 +5,35 @@ namespace eyepoint::ig {
 namespace {
 
 constexpr std::uint64_t kBytesPerSlot = terrain::kBlockVertices * sizeof(terrain::BlockVertex);
+constexpr std::uint64_t kReliefBytesPerSlot = terrain::kBlockVertices * sizeof(terrain::ReliefPost);
 /// The index store's first room, a slot; it grows by need.
 constexpr std::uint32_t kFirstIndicesPerSlot = 2048;
+
+/// A buffer with the first bytes of another.
+GlBuffer resized(const GlBuffer& from, std::uint64_t kept_bytes, std::uint64_t bytes) {
+    GlBuffer to;
+    glNamedBufferStorage(to.name(), static_cast<GLsizeiptr>(bytes), nullptr, GL_DYNAMIC_STORAGE_BIT);
+    if (kept_bytes > 0)
+        glCopyNamedBufferSubData(from.name(), to.name(), 0, 0, static_cast<GLsizeiptr>(kept_bytes));
+    return to;
+}
 
 }  // namespace
 
 BlockStore::BlockStore(std::uint32_t slots)
     : vertex_words_(GLenum{GL_TEXTURE_BUFFER}),
+      relief_(GLenum{GL_TEXTURE_BUFFER}),
       indices_(slots * kFirstIndicesPerSlot),
       slots_(slots),
       lists_(slots) {
-    glNamedBufferStorage(vertices_.name(), static_cast<GLsizeiptr>(slots * kBytesPerSlot), nullptr,
-                         GL_DYNAMIC_STORAGE_BIT);
-    glTextureBuffer(vertex_words_.name(), GL_RG32UI, vertices_.name());
+    vertices_ = resized(vertices_, 0, slots * kBytesPerSlot);
+    relief_posts_ = resized(relief_posts_, 0, slots * kReliefBytesPerSlot);
+    attach();
+}
+
+void BlockStore::attach() const {
+    glTextureBuffer(vertex_words_.name(), GL_RGBA32UI, vertices_.name());
+    glTextureBuffer(relief_.name(), GL_R32UI, relief_posts_.name());
 }
 
 std::uint32_t BlockStore::slot_of(const terrain::Block& block, std::uint64_t frame) {
@@ -32,22 +48,24 @@ std::uint32_t BlockStore::slot_of(const terrain::Block& block, std::uint64_t fra
 
 void BlockStore::upload(const terrain::Block& block, std::uint32_t slot) {
     const std::size_t vertex_bytes = block.vertices.size() * sizeof(terrain::BlockVertex);
+    constexpr std::uint64_t kReliefBytesPerSlot = terrain::kBlockVertices * sizeof(terrain::ReliefPost);
     glNamedBufferSubData(vertices_.name(), static_cast<GLintptr>(slot * kBytesPerSlot),
                          static_cast<GLsizeiptr>(vertex_bytes), block.vertices.data());
+    glNamedBufferSubData(relief_posts_.name(), static_cast<GLintptr>(slot * kReliefBytesPerSlot),
+                         static_cast<GLsizeiptr>(kReliefBytesPerSlot), block.relief.data());
     List& list = lists_[slot];
     indices_.remove(list.first, list.count);
     list = {indices_.add(block.indices), static_cast<std::uint32_t>(block.indices.size())};
     ++uploads_;
-    uploaded_bytes_ += vertex_bytes + block.indices.size() * sizeof(std::uint16_t);
+    uploaded_bytes_ += vertex_bytes + kReliefBytesPerSlot + block.indices.size() * sizeof(std::uint16_t);
 }
 
 void BlockStore::grow() {
-    const auto old_bytes = static_cast<GLsizeiptr>(slots_.size() * kBytesPerSlot);
-    GlBuffer larger;
-    glNamedBufferStorage(larger.name(), old_bytes * 2, nullptr, GL_DYNAMIC_STORAGE_BIT);
-    glCopyNamedBufferSubData(vertices_.name(), larger.name(), 0, 0, old_bytes);
-    vertices_ = std::move(larger);
-    glTextureBuffer(vertex_words_.name(), GL_RG32UI, vertices_.name());
+    const std::uint64_t old_slots = slots_.size();
+    vertices_ = resized(vertices_, old_slots * kBytesPerSlot, 2 * old_slots * kBytesPerSlot);
+    relief_posts_ =
+        resized(relief_posts_, old_slots * kReliefBytesPerSlot, 2 * old_slots * kReliefBytesPerSlot);
+    attach();
     slots_.grow_to(slots_.size() * 2);
     lists_.resize(slots_.size());
 }

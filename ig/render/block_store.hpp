@@ -1,4 +1,5 @@
-/// Blocks on the graphics card: one vertex buffer of equal slots, and the index lists of nested meshes.
+/// Blocks on the graphics card: vertices and relief in buffers of equal slots, and the index lists of nested
+/// meshes.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +24,10 @@ class BlockStore {
     [[nodiscard]] std::uint32_t first_index(std::uint32_t slot) const { return lists_[slot].first; }
 
     [[nodiscard]] GLuint vertex_buffer() const { return vertices_.name(); }
-    /// The vertex buffer as a buffer texture of pairs of words, GL_RG32UI: five texels a vertex.
+    /// The vertex buffer as a buffer texture, GL_RGBA32UI: two texels a vertex.
     [[nodiscard]] GLuint vertex_words() const { return vertex_words_.name(); }
+    /// terrain::ReliefPost, kBlockVertices a slot, as a buffer texture, GL_R32UI.
+    [[nodiscard]] GLuint relief() const { return relief_.name(); }
     [[nodiscard]] GLuint index_buffer() const { return indices_.buffer(); }
     [[nodiscard]] std::uint32_t slots() const { return slots_.size(); }
     /// Since the store was made.
@@ -39,9 +42,12 @@ class BlockStore {
 
     void upload(const terrain::Block& block, std::uint32_t slot);
     void grow();
+    void attach() const;
 
     GlBuffer vertices_;
     GlTexture vertex_words_;
+    GlBuffer relief_posts_;
+    GlTexture relief_;
     IndexStore indices_;
     SlotTable slots_;
     std::vector<List> lists_;  ///< by slot

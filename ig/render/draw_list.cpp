@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "terrain/lod/error_level.hpp"
+
 namespace eyepoint::ig {
 
 namespace {
@@ -18,6 +20,9 @@ constexpr double kMetresPerDegree = 111320.0;
 /// Fields of BlockRecord::tree, as in block.glsl.
 constexpr std::uint32_t kQuadrantShift = 8;
 constexpr std::uint32_t kHasFloors = 1U << 16;
+constexpr std::uint32_t kDepthShift = 24;
+/// In place of the depth, where a tile gives way to its parent by shape alone.
+constexpr std::uint32_t kByShapeAlone = 255;
 
 double fraction(double value) { return value - std::floor(value); }
 
@@ -26,6 +31,19 @@ const terrain::TileNode* nearest_with_image(const terrain::TileNode& node) {
     while (candidate != nullptr && !(candidate->block && candidate->block->image))
         candidate = candidate->parent;
     return candidate;
+}
+
+/// Interpolated tiles have no relief of their own.
+const terrain::TileNode& nearest_stored(const terrain::TileNode& node) {
+    const terrain::TileNode* candidate = &node;
+    while (!candidate->stored && candidate->parent != nullptr) candidate = candidate->parent;
+    return *candidate;
+}
+
+/// Where what is painted on a tile, in layer or slot `at`, lies for places in the tile or in one below it.
+glm::vec4 part_of(terrain::TileId painted, terrain::TileId tile, std::uint32_t at) {
+    const double scale = std::ldexp(1.0, static_cast<int>(painted.depth) - static_cast<int>(tile.depth));
+    return glm::vec4{glm::dvec4{at, scale, fraction(tile.x * scale), fraction(tile.y * scale)}};
 }
 
 bool any(const terrain::EdgeFloors& floors) {
@@ -91,9 +109,10 @@ std::uint32_t DrawList::place(const terrain::TileNode& node, std::uint64_t frame
     if (!nested_ || placed_in_frame_[slot] == frame) return slot;
     placed_in_frame_[slot] = frame;
     const std::uint32_t parent = node.parent != nullptr ? place(*node.parent, frame) + 1 : kNoSlot;
-    records_[slot].tree = {parent,
-                           node.block->last_level | static_cast<std::uint32_t>(terrain::quadrant(node.tile))
-                                                        << kQuadrantShift,
+    const std::uint32_t quadrant = static_cast<std::uint32_t>(terrain::quadrant(node.tile));
+    const std::uint32_t depth =
+        node.parent != nullptr && terrain::is_polar(node.parent->tile) ? kByShapeAlone : node.tile.depth;
+    records_[slot].tree = {parent, node.block->last_level | quadrant << kQuadrantShift | depth << kDepthShift,
                            0U, 0U};
     return slot;
 }
@@ -111,27 +130,31 @@ void DrawList::describe_drawn(const terrain::BlockDraw& draw, std::uint32_t slot
 }
 
 DrawList::BlockRecord DrawList::describe(const terrain::TileNode& node, std::uint64_t frame) {
-    BlockRecord record{{-1.0F, 1.0F, 0.0F, 0.0F}, {1.0F, 0.0F, 0.0F, 0.0F}, {kNoSlot, 0U, 0U, 0U}};
+    BlockRecord record{{-1.0F, 1.0F, 0.0F, 0.0F}, {1.0F, 0.0F, 0.0F, 0.0F}, {}, {kNoSlot, 0U, 0U, 0U}};
     const auto depth = static_cast<int>(node.tile.depth);
     const double noise_scale = std::ldexp(1.0, kNoiseDepth - depth);
     record.noise = glm::vec4{glm::dvec4{noise_scale, fraction(node.tile.x * noise_scale),
                                         fraction(node.tile.y * noise_scale), 0.0}};
+    const terrain::TileNode& surveyed = nearest_stored(node);
+    record.relief = part_of(surveyed.tile, node.tile, place(surveyed, frame));
     if (const terrain::TileNode* pictured = nearest_with_image(node)) {
         const auto layer = images_.layer_of(*pictured->block->image, frame);
-        const double scale = std::ldexp(1.0, static_cast<int>(pictured->tile.depth) - depth);
         const double texel_m =
             terrain::tile_side_deg(pictured->tile.depth) / terrain::kImageTexels * kMetresPerDegree;
-        if (layer)
-            record.image =
-                glm::vec4{glm::dvec4{static_cast<double>(*layer), scale, fraction(node.tile.x * scale),
-                                     fraction(node.tile.y * scale)}};
+        if (layer) record.image = part_of(pictured->tile, node.tile, *layer);
         record.noise.w = static_cast<float>(texel_m);
     }
     return record;
 }
 
+/// Of a nested mesh, the parent's relief may show.
+bool DrawList::paints_water(const terrain::TileNode& node) const {
+    return nearest_stored(node).block->has_water ||
+           (nested_ && node.parent != nullptr && node.parent->block->has_water);
+}
+
 std::size_t DrawList::features_of(const terrain::BlockDraw& draw, std::uint32_t slot) const {
-    return (draw.node->block->has_water ? kWaterFeature : 0) +
+    return (paints_water(*draw.node) ? kWaterFeature : 0) +
            (records_[slot].image.x >= 0.0F ? kImageFeature : 0);
 }
 
@@ -146,7 +169,7 @@ void DrawList::add(const terrain::BlockDraw& draw, std::uint32_t slot) {
 void DrawList::send_records() {
     glNamedBufferData(record_buffer_.name(), static_cast<GLsizeiptr>(records_.size() * sizeof(BlockRecord)),
                       records_.data(), GL_STREAM_DRAW);
-    glTextureBuffer(record_words_.name(), GL_RGBA32F, record_buffer_.name());
+    glTextureBuffer(record_words_.name(), GL_RGBA32UI, record_buffer_.name());
 }
 
 }  // namespace eyepoint::ig

@@ -34,6 +34,7 @@ class DrawList {
     struct BlockRecord {
         glm::vec4 image;
         glm::vec4 noise;
+        glm::vec4 relief;
         glm::uvec4 tree;
     };
     /// First word of BlockRecord::tree: a parent's slot + 1, or this. Zero, so that a vertex shader that
@@ -62,7 +63,7 @@ class DrawList {
     [[nodiscard]] const ImageStore& images() const { return images_; }
     /// BlockRecord by slot (block.glsl), of the blocks of the last update.
     [[nodiscard]] GLuint record_buffer() const { return record_buffer_.name(); }
-    /// The same as a buffer texture, GL_RGBA32F: three texels a record.
+    /// The same as a buffer texture, GL_RGBA32UI: four texels a record.
     [[nodiscard]] GLuint record_words() const { return record_words_.name(); }
     /// Sent to the card since the list was made.
     [[nodiscard]] std::uint64_t uploaded_blocks() const { return blocks_.uploads(); }
@@ -80,6 +81,7 @@ class DrawList {
     [[nodiscard]] BlockRecord describe(const terrain::TileNode& node, std::uint64_t frame);
     void describe_drawn(const terrain::BlockDraw& draw, std::uint32_t slot, std::uint64_t frame);
     void add(const terrain::BlockDraw& draw, std::uint32_t slot);
+    [[nodiscard]] bool paints_water(const terrain::TileNode& node) const;
     void send_records();
 
     bool nested_;

@@ -4,25 +4,25 @@
 
 namespace eyepoint::ig {
 
-tl::expected<FloorPass, std::string> FloorPass::create() {
+tl::expected<FloorPass, std::string> FloorPass::create(bool nested) {
     std::vector<GlProgram> programs;
     for (std::size_t set = 0; set < kFeatureSets; ++set) {
         auto program =
-            link_program({{"frame.glsl", "floor.vert.glsl"}, ground_files(), feature_defines(set)});
+            link_program({{"frame.glsl", "floor.vert.glsl"}, ground_files(), shading_defines(set, nested)});
         if (!program) return tl::unexpected(program.error());
         programs.push_back(std::move(*program));
     }
     return FloorPass{std::move(programs)};
 }
 
-void FloorPass::draw(const DrawList& list, GLuint noise) const {
+void FloorPass::draw(const DrawnTerrain& terrain, std::uint32_t slot, GLuint noise) const {
     glBindVertexArray(no_attributes_.name());
-    glBindTextureUnit(0, list.images().texture());
-    glBindTextureUnit(1, noise);
+    terrain.bind_painted(noise);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);  // the triangle is infinitely far: in front of it is what was drawn
     glDepthMask(GL_FALSE);
-    glUseProgram(programs_[list.features()].name());
+    glUseProgram(programs_[terrain.features].name());
+    glUniform1i(0, static_cast<GLint>(slot));
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glDepthMask(GL_TRUE);
 }

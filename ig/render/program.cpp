@@ -49,15 +49,17 @@ tl::expected<GlShader, std::string> compile(GLenum stage, const std::vector<std:
 
 }  // namespace
 
-std::vector<std::string_view> feature_defines(std::size_t set) {
+std::vector<std::string_view> shading_defines(std::size_t set, bool nested) {
     std::vector<std::string_view> defines;
     if ((set & kWaterFeature) != 0) defines.emplace_back("WATER");
     if ((set & kImageFeature) != 0) defines.emplace_back("IMAGES");
+    if (nested) defines.emplace_back("RELIEF_BY_LEVEL");
     return defines;
 }
 
 std::vector<std::string_view> ground_files() {
-    return {"frame.glsl", "tile.glsl", "chapman.glsl", "atmosphere.glsl", "ground.glsl", "terrain.frag.glsl"};
+    return {"frame.glsl",      "tile.glsl",   "relief.glsl",      "chapman.glsl",
+            "atmosphere.glsl", "ground.glsl", "terrain.frag.glsl"};
 }
 
 tl::expected<GlProgram, std::string> link_program(const ProgramSource& source) {

@@ -27,7 +27,8 @@ struct ProgramSource {
 inline constexpr std::size_t kWaterFeature = 1;
 inline constexpr std::size_t kImageFeature = 2;
 inline constexpr std::size_t kFeatureSets = 4;
-[[nodiscard]] std::vector<std::string_view> feature_defines(std::size_t set);
+/// nested: what is painted changes with the level asked for (relief.glsl).
+[[nodiscard]] std::vector<std::string_view> shading_defines(std::size_t set, bool nested);
 
 /// The terrain's fragment shader, run with the triangles.
 [[nodiscard]] std::vector<std::string_view> ground_files();

@@ -4,13 +4,13 @@
 
 namespace eyepoint::ig {
 
-tl::expected<ResolvePass, std::string> ResolvePass::create() {
+tl::expected<ResolvePass, std::string> ResolvePass::create(bool nested) {
     std::vector<GlProgram> programs;
     for (std::size_t set = 0; set < kFeatureSets; ++set) {
         auto program = link_program({{"frame.glsl", "sky.vert.glsl"},
-                                     {"frame.glsl", "tile.glsl", "chapman.glsl", "atmosphere.glsl",
-                                      "ground.glsl", "surface.glsl", "resolve.frag.glsl"},
-                                     feature_defines(set)});
+                                     {"frame.glsl", "tile.glsl", "relief.glsl", "chapman.glsl",
+                                      "atmosphere.glsl", "ground.glsl", "surface.glsl", "resolve.frag.glsl"},
+                                     shading_defines(set, nested)});
         if (!program) return tl::unexpected(program.error());
         programs.push_back(std::move(*program));
     }
@@ -19,10 +19,8 @@ tl::expected<ResolvePass, std::string> ResolvePass::create() {
 
 void ResolvePass::begin(const SurfaceBuffer& surface, const DrawnTerrain& terrain, GLuint noise) const {
     glBindVertexArray(no_attributes_.name());
-    glBindTextureUnit(0, terrain.images);
-    glBindTextureUnit(1, noise);
-    glBindTextureUnit(2, terrain.record_words);
-    glBindTextureUnit(3, surface.texture());
+    terrain.bind_painted(noise);
+    glBindTextureUnit(kSurfaceUnit, surface.texture());
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);  // the triangle is infinitely far: in front of it is what was drawn
     glDepthMask(GL_FALSE);

@@ -14,7 +14,8 @@ namespace eyepoint::ig {
 
 class ResolvePass {
   public:
-    [[nodiscard]] static tl::expected<ResolvePass, std::string> create();
+    /// nested: of blocks of nested meshes.
+    [[nodiscard]] static tl::expected<ResolvePass, std::string> create(bool nested);
 
     /// Shades every pixel whose depth says that something was drawn there, from the surface. Needs the
     /// frame's uniforms bound; leaves depth as it is.

@@ -16,15 +16,6 @@ namespace {
 using terrain::BlockVertex;
 using terrain::kBlockVertices;
 
-/// Signed normalised 10:10:10, as block.glsl reads it.
-std::uint32_t packed_normal(const glm::vec3& normal) {
-    const glm::vec3 scaled = glm::round(glm::normalize(normal) * 511.0F);
-    const auto bits = [](float value) {
-        return static_cast<std::uint32_t>(static_cast<int>(value)) & 0x3ffU;
-    };
-    return bits(scaled.x) | bits(scaled.y) << 10 | bits(scaled.z) << 20;
-}
-
 std::uint32_t packed_place(const glm::vec2& place) {
     const auto units = [](float value) {
         return static_cast<std::uint32_t>(std::clamp(value, 0.0F, 1.99F) * terrain::kVertexPlaceUnits);
@@ -37,12 +28,7 @@ BlockVertex stopped(const terrain::BlockDraw& draw, std::uint16_t vertex, const 
                     const terrain::MotionView& motion) {
     const terrain::DrawnVertex drawn = terrain::drawn_vertex(*draw.node, vertex, draw.floors, motion);
     const terrain::SplitPosition place = terrain::split(view.eye + glm::dvec3{drawn.from_eye});
-    return {place.high,
-            place.low,
-            packed_normal(drawn.normal),
-            draw.node->block->vertices[vertex].surface,
-            packed_place(drawn.place),
-            terrain::NestedMesh::kStays << 16 | terrain::kNoVertex};
+    return {place.high, place.low, packed_place(drawn.place), draw.node->block->vertices[vertex].rest};
 }
 
 void fill(const GlBuffer& buffer, std::size_t bytes, const void* content) {
@@ -54,11 +40,18 @@ class Gathering {
   public:
     Gathering(const DrawList& list, std::span<const std::uint16_t> grid_indices, const terrain::LodView& view,
               bool morph)
-        : list_(list), grid_indices_(grid_indices), view_(view), motion_(terrain::motion_view(view, morph)) {}
+        : vertices(std::size_t{list.block_store().slots()} * kBlockVertices),
+          list_(list),
+          grid_indices_(grid_indices),
+          view_(view),
+          motion_(terrain::motion_view(view, morph)) {}
 
     void add(const terrain::BlockDraw& draw, std::uint32_t slot) {
         const auto [known, fresh] = blocks_.try_emplace(slot);
-        if (fresh) place(known->second, slot);
+        if (fresh) {
+            known->second.first = slot * kBlockVertices;
+            known->second.place.fill(kUnused);
+        }
         const std::span<const std::uint16_t> indices =
             grid_indices_.empty() ? draw.node->block->indices : grid_indices_;
         std::vector<std::uint32_t>& own = by_features[list_.features_of(draw, slot)];
@@ -69,7 +62,6 @@ class Gathering {
     }
 
     std::vector<BlockVertex> vertices;
-    std::vector<DrawList::BlockRecord> records;
     std::vector<std::uint32_t> all;
     std::array<std::vector<std::uint32_t>, kFeatureSets> by_features;
 
@@ -78,28 +70,19 @@ class Gathering {
     /// keep the last ones.
     struct Placed {
         std::uint32_t first = 0;
-        std::uint32_t used = 0;
-        std::array<std::uint32_t, kBlockVertices> place;
+        std::uint16_t used = 0;
+        std::array<std::uint16_t, kBlockVertices> place;
     };
-    static constexpr std::uint32_t kUnused = 0xffff'ffff;
-
-    /// Room for the block's vertices, and its record, without parents.
-    void place(Placed& block, std::uint32_t slot) {
-        block.first = static_cast<std::uint32_t>(vertices.size());
-        block.place.fill(kUnused);
-        vertices.resize(vertices.size() + kBlockVertices);
-        records.push_back(list_.record(slot));
-        records.back().tree = {DrawList::kNoSlot, 0U, 0U, 0U};
-    }
+    static constexpr std::uint16_t kUnused = 0xffff;
 
     std::uint32_t vertex(const terrain::BlockDraw& draw, std::uint16_t index, Placed& block) {
-        std::uint32_t& place = block.place[index];
+        std::uint16_t& place = block.place[index];
         if (place == kUnused) {
-            place = block.first + block.used++;
-            vertices[place] = grid_indices_.empty() ? stopped(draw, index, view_, motion_)
-                                                    : draw.node->block->vertices[index];
+            place = block.used++;
+            vertices[block.first + place] = grid_indices_.empty() ? stopped(draw, index, view_, motion_)
+                                                                  : draw.node->block->vertices[index];
         }
-        return place;
+        return block.first + place;
     }
 
     const DrawList& list_;
@@ -113,10 +96,11 @@ class Gathering {
 
 StillMesh::StillMesh(const terrain::Selection& selection, const DrawList& list,
                      std::span<const std::uint16_t> grid_indices, const terrain::LodView& view, bool morph)
-    : vertex_words_(GLenum{GL_TEXTURE_BUFFER}),
-      record_words_(GLenum{GL_TEXTURE_BUFFER}),
-      features_(list.features()),
-      images_(list.images().texture()) {
+    : painted_{.records = list.record_buffer(),
+               .record_words = list.record_words(),
+               .relief = list.block_store().relief(),
+               .images = list.images().texture(),
+               .features = list.features()} {
     Gathering content{list, grid_indices, view, morph};
     for (std::size_t i = 0; i < selection.draws.size(); ++i) content.add(selection.draws[i], list.slot(i));
     std::vector<std::uint32_t> indices = std::move(content.all);
@@ -127,15 +111,13 @@ StillMesh::StillMesh(const terrain::Selection& selection, const DrawList& list,
     }
     fill(vertices_, content.vertices.size() * sizeof(BlockVertex), content.vertices.data());
     fill(indices_, indices.size() * sizeof(std::uint32_t), indices.data());
-    fill(records_, content.records.size() * sizeof(DrawList::BlockRecord), content.records.data());
-    glTextureBuffer(vertex_words_.name(), GL_RG32UI, vertices_.name());
-    glTextureBuffer(record_words_.name(), GL_RGBA32F, records_.name());
 }
 
 DrawnTerrain StillMesh::terrain() const {
-    return {vertices_.name(), vertex_words_.name(), indices_.name(),
-            records_.name(),  record_words_.name(), images_,
-            features_};
+    DrawnTerrain terrain = painted_;
+    terrain.vertices = vertices_.name();
+    terrain.indices = indices_.name();
+    return terrain;
 }
 
 void StillMesh::Part::draw() const {

@@ -14,8 +14,9 @@
 namespace eyepoint::ig {
 
 /// One vertex buffer, one index buffer, one draw a program. Vertices have the format of blocks and stand
-/// where the view had them, so that every shader takes them as they are; a block keeps its own vertices,
-/// triangles keep their order. Making one takes many frames' time.
+/// where the view had them, so that every shader takes them as they are; a block keeps its own vertices and
+/// its slot, triangles keep their order. What is painted on them is the list's, so it is good as long as the
+/// list draws the same selection. Making one takes many frames' time.
 class StillMesh {
   public:
     /// selection: what `list` was last updated with. grid_indices: of a method whose blocks are grids; its
@@ -39,13 +40,9 @@ class StillMesh {
 
     GlBuffer vertices_;
     GlBuffer indices_;
-    GlBuffer records_;
-    GlTexture vertex_words_;
-    GlTexture record_words_;
     Part all_;
     std::array<Part, kFeatureSets> parts_;
-    std::size_t features_;
-    GLuint images_;  ///< the list's
+    DrawnTerrain painted_;  ///< the list's
 };
 
 }  // namespace eyepoint::ig

@@ -15,15 +15,12 @@ namespace {
 
 using Files = std::vector<std::string_view>;
 
-/// Texture units, as in the shaders.
-constexpr GLuint kImageUnit = 0, kNoiseUnit = 1, kVertexUnit = 2;
-
 constexpr glm::vec4 kPaper{0.93F, 0.93F, 0.90F, 0.35F};
 constexpr glm::vec4 kInk{0.10F, 0.16F, 0.30F, 0.0F};
 
-ProgramSource source(bool nested, Files fragment_files, Files defines) {
-    Files vertex{"frame.glsl", "block.glsl", "tile.glsl"};
-    if (nested) {
+ProgramSource source(bool sliding, Files fragment_files, Files defines) {
+    Files vertex{"frame.glsl", "block.glsl"};
+    if (sliding) {
         vertex.emplace_back("nested.glsl");
         defines.emplace_back("NESTED");
     }
@@ -50,16 +47,16 @@ glm::vec4 colour_of(const terrain::BlockDraw& draw) {
 
 }  // namespace
 
-tl::expected<TerrainPass::Programs, std::string> TerrainPass::link(bool nested) {
+tl::expected<TerrainPass::Programs, std::string> TerrainPass::link(bool nested, bool sliding) {
     Programs programs;
     for (std::size_t set = 0; set < kFeatureSets; ++set) {
-        auto program = link_program(source(nested, ground_files(), feature_defines(set)));
+        auto program = link_program(source(sliding, ground_files(), shading_defines(set, nested)));
         if (!program) return tl::unexpected(program.error());
         programs.shaded.push_back(std::move(*program));
     }
     const std::array<ProgramSource, 3> others{
-        source(nested, {"surface.glsl", "surface.frag.glsl"}, {"SURFACE"}),
-        source(nested, {"depth.frag.glsl"}, {}), source(nested, {"frame.glsl", "shown.frag.glsl"}, {})};
+        source(sliding, {"surface.glsl", "surface.frag.glsl"}, {}), source(sliding, {"depth.frag.glsl"}, {}),
+        source(sliding, {"frame.glsl", "relief.glsl", "shown.frag.glsl"}, shading_defines(0, nested))};
     for (const ProgramSource& other : others) {
         auto program = link_program(other);
         if (!program) return tl::unexpected(program.error());
@@ -70,7 +67,7 @@ tl::expected<TerrainPass::Programs, std::string> TerrainPass::link(bool nested) 
 
 tl::expected<TerrainPass, std::string> TerrainPass::create(const terrain::LodMethod& method) {
     const bool nested = method.mesh_kind() == terrain::MeshKind::Nested;
-    auto programs = link(nested);
+    auto programs = link(nested, nested);
     if (!programs) return tl::unexpected(programs.error());
     return TerrainPass{std::move(*programs), method.indices(), nested};
 }
@@ -91,8 +88,8 @@ void TerrainPass::describe_vertices() const {
     }
     glVertexArrayAttribFormat(layout_.name(), 0, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, high));
     glVertexArrayAttribFormat(layout_.name(), 1, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, low));
-    static_assert(offsetof(Vertex, motion) == offsetof(Vertex, normal) + 12);
-    glVertexArrayAttribIFormat(layout_.name(), 2, 4, GL_UNSIGNED_INT, offsetof(Vertex, normal));
+    static_assert(offsetof(Vertex, rest) == offsetof(Vertex, place) + 4);
+    glVertexArrayAttribIFormat(layout_.name(), 2, 2, GL_UNSIGNED_INT, offsetof(Vertex, place));
 }
 
 FrameStatistics TerrainPass::update(const terrain::Selection& selection, std::uint64_t frame) {
@@ -112,9 +109,10 @@ FrameStatistics TerrainPass::update(const terrain::Selection& selection, std::ui
 
 DrawnTerrain TerrainPass::terrain() const {
     const BlockStore& blocks = list_.block_store();
-    return {blocks.vertex_buffer(), blocks.vertex_words(), nested_ ? blocks.index_buffer() : indices_.name(),
-            list_.record_buffer(),  list_.record_words(),  list_.images().texture(),
-            list_.features()};
+    return {
+        blocks.vertex_buffer(),   blocks.vertex_words(), nested_ ? blocks.index_buffer() : indices_.name(),
+        list_.record_buffer(),    list_.record_words(),  blocks.relief(),
+        list_.images().texture(), list_.features()};
 }
 
 void TerrainPass::begin(const DrawnTerrain& terrain) const {
@@ -122,8 +120,7 @@ void TerrainPass::begin(const DrawnTerrain& terrain) const {
     glVertexArrayVertexBuffer(layout_.name(), 0, terrain.vertices, 0, sizeof(terrain::BlockVertex));
     glVertexArrayElementBuffer(layout_.name(), terrain.indices);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, terrain.records);
-    glBindTextureUnit(kImageUnit, terrain.images);
-    glBindTextureUnit(kNoiseUnit, noise_.name());
+    terrain.bind_painted(noise_.name());
     glBindTextureUnit(kVertexUnit, terrain.vertex_words);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GREATER);
@@ -163,7 +160,7 @@ void TerrainPass::draw_surface() const {
 
 bool TerrainPass::prepare_still() {
     if (!nested_ || motionless_) return true;
-    auto programs = link(false);
+    auto programs = link(true, false);
     if (programs) motionless_ = std::move(*programs);
     return motionless_.has_value();
 }

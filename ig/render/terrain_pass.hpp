@@ -62,7 +62,7 @@ class TerrainPass {
     };
     enum Other : std::size_t { kSurface, kDepth, kShown };
 
-    [[nodiscard]] static tl::expected<Programs, std::string> link(bool nested);
+    [[nodiscard]] static tl::expected<Programs, std::string> link(bool nested, bool sliding);
     TerrainPass(Programs programs, std::span<const std::uint16_t> indices, bool nested);
     void describe_vertices() const;
     void begin(const DrawnTerrain& terrain) const;

@@ -9,37 +9,52 @@
 
 #include "terrain/block/cell_bounds.hpp"
 #include "terrain/block/cell_boxes.hpp"
+#include "terrain/block/relief.hpp"
 #include "terrain/database/database.hpp"
 #include "terrain/geodesy/position.hpp"
 
 namespace eyepoint::terrain {
 
-/// How a vertex of a nested mesh moves (database.hpp, NestedMesh): low 16 bits: its target in the same block
-/// or, where it stays, the same vertex in the parent's block (kNoVertex in a root); bits 16..23: the level at
-/// which it has gone, or NestedMesh::kStays; bits 24..27: on the tile's west, east, south, north edge.
-using VertexMotion = std::uint32_t;
-inline constexpr std::uint32_t kNoVertex = 0xffff;
+inline constexpr std::uint32_t kNoVertex = 0x7ff;
 
-/// One vertex as the graphics card gets it: 40 bytes.
+/// One vertex as the graphics card gets it: 32 bytes. What is painted on the ground is not a vertex's
+/// (relief.hpp).
 /// The ECEF position is the sum of two floats an axis (error under 1e-8 m at the Earth's surface). A post
 /// shared by two tiles has the same bits in both, so that it lands on the same pixel from both.
 struct BlockVertex {
     std::array<float, 3> high{};
     std::array<float, 3> low{};
-    /// Surface normal in ECEF, signed normalised 10:10:10:2, x in the low bits.
-    std::uint32_t normal = 0;
-    /// Low 16 bits: MSL height in quarters of a metre above kSurfaceFloorM; bit 16: water.
-    std::uint32_t surface = 0;
-    /// Place in the tile, kVertexPlaceUnits a side (rounded down): x (east) in the low 16 bits, y (north) in
-    /// the high.
+    /// Place in the tile, kVertexPlaceUnits a side (rounded down, but never to the edge): x (east) in the low
+    /// 16 bits, y (north) in the high.
     std::uint32_t place = 0;
-    VertexMotion motion = NestedMesh::kStays << 16 | kNoVertex;
+    /// How a vertex of a nested mesh moves (database.hpp, NestedMesh): bits 0..10: its target in the same
+    /// block or, where it stays, the same vertex in the parent's block (kNoVertex in a root); bits 11..17:
+    /// the level at which it has gone, or kStaysField. And bits 18..31: MSL height, metres above
+    /// kSurfaceFloorM.
+    std::uint32_t rest = kStaysField << kGoneShift | kNoVertex;
+
+    static constexpr std::uint32_t kStaysField = 0x7f;
+    static constexpr int kGoneShift = 11;
+    static constexpr int kHeightShift = 18;
+
+    /// The target, or the same vertex in the parent's block.
+    [[nodiscard]] std::uint16_t next() const { return static_cast<std::uint16_t>(rest & kNoVertex); }
+    /// The level at which it has gone, or NestedMesh::kStays.
+    [[nodiscard]] std::uint8_t gone_level() const {
+        const std::uint32_t field = rest >> kGoneShift & kStaysField;
+        return field == kStaysField ? NestedMesh::kStays : static_cast<std::uint8_t>(field);
+    }
+    [[nodiscard]] double height_msl_m() const;
+    /// The tile's edges that it is on: 1 west, 2 east, 4 south, 8 north.
+    [[nodiscard]] std::uint8_t sides() const;
+    /// gone_level: up to 63, or NestedMesh::kStays.
+    void set_motion(std::uint32_t next, std::uint8_t gone_level);
 };
-static_assert(sizeof(BlockVertex) == 40);
+static_assert(sizeof(BlockVertex) == 32);
+static_assert(kBlockPosts * kBlockPosts <= kNoVertex);
 
 inline constexpr std::uint32_t kVertexPlaceUnits = 32768;
 inline constexpr double kSurfaceFloorM = -1500.0;
-inline constexpr double kSurfaceStepM = 0.25;
 inline constexpr int kBlockVertices = kBlockPosts * kBlockPosts;
 
 /// A position as the pair of floats whose sum it is.
@@ -70,6 +85,7 @@ struct NestedLevel {
 struct Block {
     BlockData data;
     std::vector<BlockVertex> vertices;   ///< at most kBlockVertices
+    std::vector<ReliefPost> relief;      ///< of the 33 x 33 posts, in row order from the south-west
     std::vector<std::uint16_t> indices;  ///< of all levels; empty for a grid
     std::vector<NestedLevel> levels;     ///< from first_level to last_level; empty for a grid
     std::uint8_t first_level = 0;
@@ -90,8 +106,8 @@ struct Block {
 [[nodiscard]] std::shared_ptr<const Block> unfold(BlockData data, std::optional<ImageData> image);
 
 /// Unfolds a nested mesh: vertices, and the index lists of all its levels. `parent` is the parent's block,
-/// unfolded the same way; nullptr for a root. A vertex that stays takes the parent's normal, so that it has
-/// one in every block. with_bounds: makes Block::bounds too, which horizon culling needs.
+/// unfolded the same way; nullptr for a root. with_bounds: makes Block::bounds too, which horizon culling
+/// needs.
 [[nodiscard]] std::shared_ptr<const Block> unfold(BlockData data, const NodeInfo& info,
                                                   const NestedMesh& mesh, const Block* parent,
                                                   std::optional<ImageData> image, bool with_bounds = false);

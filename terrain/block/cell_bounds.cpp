@@ -45,9 +45,6 @@ constexpr float kLowest = std::numeric_limits<float>::lowest();
 float least(float a, float b) { return a < b ? a : b; }
 float most(float a, float b) { return a > b ? a : b; }
 
-std::uint32_t next(const BlockVertex& vertex) { return vertex.motion & 0xffffU; }
-int gone_level(const BlockVertex& vertex) { return static_cast<int>(vertex.motion >> 16 & 0xffU); }
-
 /// A box of places, in cells from the tile's south-west corner.
 struct Box {
     glm::vec2 low{std::numeric_limits<float>::max()};
@@ -98,16 +95,16 @@ class Places {
         const auto own = static_cast<std::uint32_t>(block_.vertices.size());
         while (true) {
             const BlockVertex& vertex = at(number);
-            const int gone = gone_level(vertex);
+            const int gone = vertex.gone_level();
             if (gone == NestedMesh::kStays) {
-                if (number >= own || parent_ == nullptr || next(vertex) == kNoVertex) return;
-                number = own + next(vertex);
+                if (number >= own || parent_ == nullptr || vertex.next() == kNoVertex) return;
+                number = own + vertex.next();
                 continue;
             }
             // It sets off once the level asked for is above gone - 1.
             if (gone - 1 >= last_limit_) return;
             step = std::max(step, static_cast<std::uint32_t>(std::max(gone - first_limit_, 0)));
-            number = (number >= own ? own : 0) + next(vertex);
+            number = (number >= own ? own : 0) + vertex.next();
             visit(number, step);
         }
     }

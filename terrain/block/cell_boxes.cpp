@@ -16,8 +16,6 @@ namespace {
 
 static_assert(CellBoxes::kCells == std::size_t{kMeshCells} * kMeshCells);
 
-std::uint32_t next(const BlockVertex& vertex) { return vertex.motion & 0xffffU; }
-int gone_level(const BlockVertex& vertex) { return static_cast<int>(vertex.motion >> 16 & 0xffU); }
 Ecef position(const BlockVertex& vertex) {
     return glm::dvec3{vertex.high[0], vertex.high[1], vertex.high[2]} +
            glm::dvec3{vertex.low[0], vertex.low[1], vertex.low[2]};
@@ -47,16 +45,16 @@ void follow(const Block& block, const Block* parent, std::uint32_t index, int la
     visit(in->vertices[index], int{block.first_level});
     while (true) {
         const BlockVertex& vertex = in->vertices[index];
-        const int gone = gone_level(vertex);
+        const int gone = vertex.gone_level();
         if (gone == NestedMesh::kStays) {
-            if (in == parent || parent == nullptr || next(vertex) == kNoVertex) return;
+            if (in == parent || parent == nullptr || vertex.next() == kNoVertex) return;
             in = parent;
-            index = next(vertex);
+            index = vertex.next();
             continue;
         }
         // It sets off as soon as more than the level before is asked for.
         if (gone > last) return;
-        index = next(vertex);
+        index = vertex.next();
         visit(in->vertices[index], std::max(gone, int{block.first_level}));
     }
 }

@@ -11,8 +11,6 @@ namespace {
 
 constexpr std::int64_t kCellUnits = kPlaceUnits / std::uint32_t{kMeshCells};
 constexpr std::size_t kCells = std::size_t{kMeshCells} * kMeshCells;
-constexpr int kGoneShift = 16;
-constexpr int kEdgeShift = 24;
 
 /// Order of NestedMesh::fine_posts.
 bool before(const NestedMesh::FinePost& post, Place place) {
@@ -69,7 +67,6 @@ std::vector<BlockVertex> positioned(const BlockData& data, const NestedMesh& mes
     return vertices;
 }
 
-/// Gives every vertex its motion, and those that stay the parent's normal.
 void set_motion(Block& block, const NestedMesh& mesh, std::span<const Place> places, const Block* parent) {
     std::optional<VertexFinder> finder;
     if (parent != nullptr) finder.emplace(*parent);
@@ -78,9 +75,7 @@ void set_motion(Block& block, const NestedMesh& mesh, std::span<const Place> pla
         const bool stays = mesh.gone_level[i] == NestedMesh::kStays;
         std::uint32_t next = mesh.target[i];
         if (stays) next = finder ? finder->at(in_parent(places[i], block.data.tile)) : kNoVertex;
-        if (stays && next != kNoVertex) vertex.normal = parent->vertices[next].normal;
-        vertex.motion = next | std::uint32_t{mesh.gone_level[i]} << kGoneShift |
-                        std::uint32_t{sides_of(places[i])} << kEdgeShift;
+        vertex.set_motion(next, mesh.gone_level[i]);
     }
 }
 
@@ -187,8 +182,9 @@ std::shared_ptr<const Block> unfold(BlockData data, const NodeInfo& info, const 
     set_motion(*block, mesh, places, parent);
     append_levels(*block, mesh, places);
     block->cell_boxes = cell_boxes(*block, parent);
-    block->has_water =
-        std::any_of(data.water.begin(), data.water.end(), [](std::uint8_t flag) { return flag != 0; });
+    block->relief = relief_of(block->data);
+    block->has_water = std::any_of(block->data.water.begin(), block->data.water.end(),
+                                   [](std::uint8_t flag) { return flag != 0; });
     block->image = std::move(image);
     if (with_bounds) block->bounds = std::make_shared<const CellBounds>(cell_bounds(*block, parent));
     return block;

@@ -12,6 +12,7 @@
 #include "terrain/lod/eye_height.hpp"
 #include "terrain/lod/nested_floors.hpp"
 #include "terrain/lod/nested_motion.hpp"
+#include "terrain/lod/painted_detail.hpp"
 #include "terrain/lod/planet_horizon.hpp"
 
 namespace eyepoint::terrain {
@@ -19,8 +20,6 @@ namespace eyepoint::terrain {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// A picture's texel may cover so many pixels before a finer picture is wanted.
-constexpr double kMostPixelsATexel = 2.0;
 /// Nodes in use are told so once in so many frames: well before the pager takes them for unused.
 constexpr std::uint64_t kUseFrames = 16;
 static_assert(2 * kUseFrames < kKeepFrames);
@@ -56,6 +55,15 @@ const double kReachRow = 1.0 / (1.0 - std::sqrt(0.5));
 /// How far a vertex may have slid, by its distance: at each level to a vertex beside it, so all in all by the
 /// row that ends at the level asked for there. Half a level more for the slide that has begun.
 double slide_share(double scale) { return kReachRow * kLevelReachM * scale * std::exp2(0.25); }
+
+/// Side of a texel of what is painted on a tile, metres, where a child has it finer; posts of its relief
+/// count as texels that may be so much larger. Not at a pole, where thousands of narrow tiles meet. -infinity
+/// for none.
+double texel_to_refine_m(const TileNode& node) {
+    const double picture_m = node.texel_to_refine_m > 0.0 ? node.texel_to_refine_m : -kInfinity;
+    if (!node.info.has_children || is_polar(node.tile)) return picture_m;
+    return std::max(picture_m, post_spacing_m(node.tile.depth) * kMostPixelsATexel / kMostPixelsAPost);
+}
 
 /// No point of the Earth nearer than this is behind its curve.
 double nearest_hidden_m(const Ecef& eye, double lowest_m) {
@@ -210,7 +218,7 @@ std::int32_t NestedLod::add(TileNode* nodes, std::uint32_t count) {
             for (int i = 0; i < 3; ++i)
                 quad.half_m[static_cast<std::size_t>(axis * 3 + i)][lane] = static_cast<float>(half_m[i]);
         }
-        quad.texel_m[lane] = node.texel_to_refine_m > 0.0 ? node.texel_to_refine_m : -kInfinity;
+        quad.texel_m[lane] = texel_to_refine_m(node);
     }
     quads_.push_back(quad);
     return static_cast<std::int32_t>(quads_.size()) - 1;
@@ -275,7 +283,8 @@ void NestedLod::choose(std::int32_t index, std::size_t lane, const Frame& frame)
     const double level = level_at(distance, frame.scale) - kLevelMargin;
     const int first = node.info.first_level, last = node.info.last_level;
     const bool fine = first == 0 || level >= first;
-    const bool sharp = distance >= frame.metres_a_texel * node.texel_to_refine_m;
+    const bool sharp =
+        distance >= frame.metres_a_texel * quads_[static_cast<std::size_t>(index)].texel_m[lane];
     const bool split = !fine || !sharp;
     if (split && quads_[static_cast<std::size_t>(index)].children[lane] == kNone) {
         const auto children = frame.tree.children(node);

@@ -52,7 +52,7 @@ class NestedLod final : public LodMethod {
         std::array<double, 4> near_m{};                ///< distance at the choice + odometer then
         std::array<double, 4> far_m{};                 ///< distance at the choice - odometer then
         std::array<double, 4> slide_within_m{};  ///< what vertices may slide up to the tile's last level
-        std::array<double, 4> texel_m{};         ///< TileNode::texel_to_refine_m; -infinity for none
+        std::array<double, 4> texel_m{};         ///< of what is painted; -infinity for none finer below
         std::array<IndexRange, 4> range{};       ///< of the list chosen
         std::array<std::uint8_t, 4> level{};     ///< of the list chosen
         std::array<std::uint8_t, 4> nearest{};   ///< row of `nearer_m`: nearer than that, choose anew

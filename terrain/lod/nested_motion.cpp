@@ -10,9 +10,6 @@ namespace eyepoint::terrain {
 
 namespace {
 
-std::uint32_t gone_level(VertexMotion motion) { return (motion >> 16) & 0xffU; }
-std::uint32_t next_vertex(VertexMotion motion) { return motion & 0xffffU; }
-
 /// log2 of a positive normal number: the exponent, and a polynomial of degree 9 through the Chebyshev nodes
 /// of sqrt(1/2)..sqrt(2). The shader's, operation by operation: the libraries' differ from machine to
 /// machine.
@@ -44,8 +41,6 @@ DrawnVertex unpack(const BlockVertex& vertex, const SplitPosition& eye) {
     for (int axis = 0; axis < 3; ++axis) {
         const auto at = static_cast<std::size_t>(axis);
         result.from_eye[axis] = (vertex.high[at] - eye.high[at]) + (vertex.low[at] - eye.low[at]);
-        const auto ten_bits = static_cast<std::int32_t>(vertex.normal << (22 - 10 * axis)) >> 22;
-        result.normal[axis] = std::max(static_cast<float>(ten_bits) / 511.0F, -1.0F);
     }
     result.place =
         glm::vec2{vertex.place & 0xffffU, vertex.place >> 16} / static_cast<float>(kVertexPlaceUnits);
@@ -68,7 +63,7 @@ float floor_level(const EdgeFloors& floors, const glm::vec2& place) {
 /// A vertex in the block in hand, and how places there are those of the drawn tile.
 struct Step {
     const TileNode* node;
-    VertexMotion motion;
+    const BlockVertex* vertex;
     glm::vec2 scale{1.0F};
     glm::vec2 offset{0.0F};
 
@@ -77,13 +72,13 @@ struct Step {
         offset -= scale * glm::vec2{node->tile.x & 1U, node->tile.y & 1U};
         scale *= 2.0F;
         node = node->parent;
-        motion = node->block->vertices[next_vertex(motion)].motion;
+        vertex = &node->block->vertices[vertex->next()];
     }
     /// A vertex that stays goes later, if at all, and in an ancestor's block.
     [[nodiscard]] bool goes_above(float level) const {
-        return gone_level(motion) == NestedMesh::kStays &&
+        return vertex->gone_level() == NestedMesh::kStays &&
                level > static_cast<float>(node->block->last_level) && node->parent != nullptr &&
-               next_vertex(motion) != kNoVertex;
+               vertex->next() != kNoVertex;
     }
 };
 
@@ -96,28 +91,25 @@ MotionView motion_view(const LodView& view, bool morph) {
 
 DrawnVertex drawn_vertex(const TileNode& node, std::uint16_t vertex, const EdgeFloors& floors,
                          const MotionView& view) {
-    const BlockVertex* at = &node.block->vertices[vertex];
-    Step step{&node, at->motion};
+    Step step{&node, &node.block->vertices[vertex]};
     DrawnVertex sum;
-    DrawnVertex current = unpack(*at, view.eye);
+    DrawnVertex current = unpack(*step.vertex, view.eye);
     float left = 1.0F, lowest = 0.0F;
     while (true) {
         lowest = std::max(lowest, floor_level(floors, current.place));
         const float level = level_asked(current.from_eye, lowest, view);
         while (step.goes_above(level)) step.climb();
-        const std::uint32_t gone = gone_level(step.motion);
+        const std::uint8_t gone = step.vertex->gone_level();
         const float t = gone == NestedMesh::kStays
                             ? 0.0F
                             : std::clamp(level - (static_cast<float>(gone) - 1.0F), 0.0F, 1.0F);
         const float share = left * (1.0F - t);
         sum.from_eye += share * current.from_eye;
-        sum.normal += share * current.normal;
         sum.place += share * current.place;
         left *= t;
         if (left == 0.0F) return sum;
-        at = &step.node->block->vertices[next_vertex(step.motion)];
-        step.motion = at->motion;
-        current = unpack(*at, view.eye);
+        step.vertex = &step.node->block->vertices[step.vertex->next()];
+        current = unpack(*step.vertex, view.eye);
         current.place = current.place * step.scale + step.offset;
     }
 }

@@ -41,7 +41,6 @@ inline constexpr double kLevelMargin = 1e-3;
 
 struct DrawnVertex {
     glm::vec3 from_eye{0.0F};  ///< ECEF axes, metres
-    glm::vec3 normal{0.0F};    ///< not of unit length
     glm::vec2 place{0.0F};     ///< in the drawn tile, 0..1; outside it where it slid to a vertex beyond
 };
 

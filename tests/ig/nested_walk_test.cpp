@@ -33,7 +33,7 @@ constexpr PictureSize kSize{640, 480};
 /// The terrain's vertex shader, linked to hand out positions in place of drawing.
 GlProgram walking_program() {
     std::string text = "#version 450 core\n#define NESTED\n";
-    for (const char* file : {"frame.glsl", "block.glsl", "tile.glsl", "nested.glsl", "terrain.vert.glsl"})
+    for (const char* file : {"frame.glsl", "block.glsl", "nested.glsl", "terrain.vert.glsl"})
         text += shader_text(file);
     const char* source = text.c_str();
     const GlShader shader{GLenum{GL_VERTEX_SHADER}};
@@ -62,7 +62,7 @@ class Walker {
         }
         glVertexArrayAttribFormat(layout_.name(), 0, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, high));
         glVertexArrayAttribFormat(layout_.name(), 1, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, low));
-        glVertexArrayAttribIFormat(layout_.name(), 2, 4, GL_UNSIGNED_INT, offsetof(Vertex, normal));
+        glVertexArrayAttribIFormat(layout_.name(), 2, 2, GL_UNSIGNED_INT, offsetof(Vertex, place));
         glNamedBufferStorage(caught_.name(), terrain::kBlockVertices * sizeof(Point), nullptr, 0);
     }
 

@@ -2,13 +2,15 @@
 // (ig/render/draw_list.cpp).
 layout(location = 0) in vec3 high;
 layout(location = 1) in vec3 low;
-layout(location = 2) in uvec4 packed_rest;  // normal, surface, place, motion
+layout(location = 2) in uvec2 packed_rest;  // place, rest
 
 struct BlockRecord {
     vec4 image;  // layer (negative: none), scale and offset of the picture's coordinates
     vec4 noise;  // scale and offset of the noise's coordinates; w: metres a texel of the picture
-    // Parent's slot + 1, 0: none; last level, quadrant << 8, floors << 16; the floors of the edges' halves, a byte each.
-    // All zeros has no parent: llvmpipe reads zeros here in the lanes that fill up a vector of vertices.
+    vec4 relief; // slot of the block whose relief is painted, scale and offset of places in it (relief.glsl)
+    // Parent's slot + 1, 0: none; last level, quadrant << 8, floors << 16, depth << 24 (relief.glsl); the floors of the
+    // edges' halves, a byte each. All zeros has no parent: llvmpipe reads zeros here in the lanes that fill up a vector
+    // of vertices.
     uvec4 tree;
 };
 layout(std430, binding = 0) readonly buffer Blocks { BlockRecord blocks[]; };
@@ -19,17 +21,13 @@ const float kPlaceUnits = 32768.0;
 // What a vertex is: position relative to the eye, ECEF axes, metres; place in the drawn tile, 0..1.
 struct Vertex {
     vec3 from_eye;
-    vec3 normal;
     vec2 place;
     float height;  // above the sea, metres
-    float water;
 };
 
 // The eye is subtracted part by part, so that what is left is small and exact; `precise` keeps the order, so that a
 // post shared by two blocks lands on the same bits from both.
-Vertex unpack(vec3 high_part, vec3 low_part, uvec3 rest) {
+Vertex unpack(vec3 high_part, vec3 low_part, uvec2 rest) {
     precise vec3 from_eye = (high_part - eye_high.xyz) + (low_part - eye_low.xyz);
-    ivec3 ten_bits = ivec3(int(rest.x) << 22, int(rest.x) << 12, int(rest.x) << 2) >> 22;
-    return Vertex(from_eye, max(vec3(ten_bits) / 511.0, -1.0), vec2(rest.z & 0xffffu, rest.z >> 16) / kPlaceUnits,
-                  float(rest.y & 0xffffu) * 0.25 - 1500.0, float((rest.y >> 16) & 1u));
+    return Vertex(from_eye, vec2(rest.x & 0xffffu, rest.x >> 16) / kPlaceUnits, float(rest.y >> 18) - 1500.0);
 }

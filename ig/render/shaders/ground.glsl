@@ -2,9 +2,8 @@
 // between shading while triangles are drawn (terrain.frag.glsl) and after (resolve.frag.glsl).
 struct Ground {
     vec3 relative;  // to the eye, metres
-    vec3 normal;
     float height;   // above the sea, metres
-    float water;    // 0..1
+    vec3 relief;    // x, y: how the normal leans to the east and north; z: water, 0..1
     vec2 broad;     // noise, at two scales
     vec2 near;
     vec3 picture;   // the tile's picture and its texels' side, metres
@@ -71,7 +70,7 @@ vec4 shaded(Ground ground) {
     vec3 direction = ground.relative / metres;
     // Perpendicular to the ellipsoid, nearly: z is stretched by 1 / (1 - e^2).
     vec3 up = normalize((eye_high.xyz + ground.relative) * vec3(1.0, 1.0, 1.0067395));
-    vec3 n = normalize(ground.normal);
+    vec3 n = leaning(ground.relief.xy, up, eye_high.xyz + ground.relative);
 
     vec2 broad = ground.broad - 0.5, near = ground.near - 0.5;
     // From far away the broad part would show its repetition too.
@@ -91,7 +90,7 @@ vec4 shaded(Ground ground) {
     vec3 surface = lit_ground(albedo, n, up);
 #ifdef WATER
     // Water's own shading gives way to the picture where that is sharper than the posts that say where water is.
-    float wet = smoothstep(0.4, 0.6, ground.water) * (1.0 - 0.85 * pictured * smoothstep(20000.0, 100000.0, metres));
+    float wet = smoothstep(0.4, 0.6, ground.relief.z) * (1.0 - 0.85 * pictured * smoothstep(20000.0, 100000.0, metres));
     surface = mix(surface, lit_water(direction, up, grain.yz, metres), wet);
 #endif
     Air air = air_along(direction, path_from_eye(max(ground.height, 0.0), metres));

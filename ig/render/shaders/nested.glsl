@@ -1,10 +1,10 @@
 // Where a vertex of a nested mesh is drawn: terrain/lod/nested_motion.hpp on the graphics card. Everything that decides
 // a position is `precise` and made of operations that are rounded correctly everywhere, so that a vertex lands on the
 // same bits from every block and in every program.
-layout(binding = 2) uniform usamplerBuffer vertex_words;  // all blocks' vertices, five pairs of words each
+layout(binding = 2) uniform usamplerBuffer vertex_words;  // all blocks' vertices, four words and four
 
 const int kLevels = 64;
-const uint kStays = 255u;
+const uint kStays = 127u;
 const uint kNoSlot = 0u;
 
 // log2 of a positive normal number, to 6e-8 + half a unit in the last place of the result: the exponent, and a
@@ -54,32 +54,31 @@ float level_asked(vec3 from_eye, float lowest) {
     return motion.y != 0.0 ? level : floor(level);
 }
 
-// A vertex of the block in a slot, its place as that block has it; w: its motion.
-Vertex fetch(int slot, uint index, out uint moves) {
-    int at = (slot * kBlockVertices + int(index)) * 5;
-    uvec2 a = texelFetch(vertex_words, at).xy, b = texelFetch(vertex_words, at + 1).xy;
-    uvec2 c = texelFetch(vertex_words, at + 2).xy, d = texelFetch(vertex_words, at + 3).xy;
-    uvec2 e = texelFetch(vertex_words, at + 4).xy;
-    moves = e.y;
-    return unpack(uintBitsToFloat(uvec3(a, b.x)), uintBitsToFloat(uvec3(b.y, c)), uvec3(d, e.x));
+uint next_of(uint rest) { return rest & 0x7ffu; }
+uint gone_level(uint rest) { return (rest >> 11) & 0x7fu; }
+
+// A vertex of the block in a slot, its place as that block has it.
+Vertex fetch(int slot, uint index, out uint rest) {
+    int at = (slot * kBlockVertices + int(index)) * 2;
+    uvec4 a = texelFetch(vertex_words, at), b = texelFetch(vertex_words, at + 1);
+    rest = b.w;
+    return unpack(uintBitsToFloat(a.xyz), uintBitsToFloat(uvec3(a.w, b.xy)), b.zw);
 }
 
 // Sum of vertices by weight; its position's bits depend on the vertices and weights alone.
 void accumulate(inout Vertex sum, Vertex vertex, float weight) {
     precise vec3 from_eye = sum.from_eye + weight * vertex.from_eye;
     sum.from_eye = from_eye;
-    sum.normal += weight * vertex.normal;
     sum.place += weight * vertex.place;
     sum.height += weight * vertex.height;
-    sum.water += weight * vertex.water;
 }
 
 // P(v): the vertex, its target, the target's target and so on, as far as each has set out.
-Vertex walk(Vertex vertex, int slot, uint moves) {
+Vertex walk(Vertex vertex, int slot, uint rest) {
     uvec4 drawn = blocks[slot].tree;
     uvec4 tree = drawn;
     vec2 scale = vec2(1.0), offset = vec2(0.0);  // from places in the block in hand to the drawn tile's
-    Vertex sum = Vertex(vec3(0.0), vec3(0.0), vec2(0.0), 0.0, 0.0);
+    Vertex sum = Vertex(vec3(0.0), vec2(0.0), 0.0);
     precise float left = 1.0;
     float lowest = 0.0;
     // Each target goes at a higher level than what slides to it.
@@ -87,22 +86,22 @@ Vertex walk(Vertex vertex, int slot, uint moves) {
         // A floor stays on the way: the chain runs along the edge's line.
         lowest = max(lowest, floor_level(drawn, vertex.place));
         float level = level_asked(vertex.from_eye, lowest);
-        uint gone = (moves >> 16) & 0xffu;
+        uint gone = gone_level(rest);
         // A vertex that stays goes later, if at all, and in an ancestor's block.
         while (gone == kStays && level > float(tree.y & 0xffu) && tree.x != kNoSlot) {
             offset -= scale * vec2((tree.y >> 8) & 1u, (tree.y >> 9) & 1u);
             scale *= 2.0;
             slot = int(tree.x) - 1;
             tree = blocks[slot].tree;
-            moves = texelFetch(vertex_words, (slot * kBlockVertices + int(moves & 0xffffu)) * 5 + 4).y;
-            gone = (moves >> 16) & 0xffu;
+            rest = texelFetch(vertex_words, (slot * kBlockVertices + int(next_of(rest))) * 2 + 1).w;
+            gone = gone_level(rest);
         }
         precise float t = gone == kStays ? 0.0 : clamp(level - (float(gone) - 1.0), 0.0, 1.0);
         precise float share = left * (1.0 - t);
         accumulate(sum, vertex, share);
         left = left * t;
         if (left == 0.0) return sum;
-        vertex = fetch(slot, moves & 0xffffu, moves);
+        vertex = fetch(slot, next_of(rest), rest);
         vertex.place = vertex.place * scale + offset;
     }
     return sum;

@@ -1,4 +1,4 @@
-// Where textures are looked up at a place in a tile, in the vertex and in the fragment stage.
+// Where textures are looked up at a place in a tile.
 
 // The noise's second look-up is turned by a whole-number matrix, so that it repeats with the first and shows no seams;
 // it repeats often, so only its fine part is used, which fades to nothing before the eye could see the pattern.

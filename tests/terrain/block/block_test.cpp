@@ -16,14 +16,6 @@ glm::dvec3 position(const BlockVertex& vertex) {
             static_cast<double>(vertex.high[2]) + vertex.low[2]};
 }
 
-double field(std::uint32_t packed, int shift) {
-    const auto raw = static_cast<std::int32_t>((packed >> shift) & 0x3ffU);
-    return (raw >= 512 ? raw - 1024 : raw) / 511.0;
-}
-glm::dvec3 normal(const BlockVertex& vertex) {
-    return {field(vertex.normal, 0), field(vertex.normal, 10), field(vertex.normal, 20)};
-}
-
 /// A tile whose surface rises to the east by a given slope.
 BlockData slope_to_the_east(TileId tile, double rise_per_post_m) {
     BlockData data;
@@ -49,24 +41,10 @@ TEST(Block, VerticesStandOnTheEarthToTheMicrometre) {
     }
 }
 
-TEST(Block, NormalLeansAwayFromTheRise) {
-    const TileId tile = tile_at(0.0, 20.0, 14);
-    const double spacing_m = post_spacing_deg(14) * 111319.5;
-    const auto block = unfold(slope_to_the_east(tile, spacing_m), std::nullopt);  // 45 degrees
-    const auto& middle = block->vertices[16 * kBlockPosts + 16];
-    const glm::dmat3 enu = east_north_up(post_latitude_deg(tile, 16), post_longitude_deg(tile, 16));
-    const glm::dvec3 want = glm::normalize(enu[2] - enu[0]);
-    EXPECT_GT(glm::dot(glm::normalize(normal(middle)), want), std::cos(0.01));
-}
-
-TEST(Block, SurfaceHoldsHeightAboveTheSeaAndWater) {
-    BlockData data = slope_to_the_east(tile_at(46.5, 8.2, 14), 10.0);
-    data.water[5] = 1;
-    const auto block = unfold(data, std::nullopt);
-    const std::uint32_t surface = block->vertices[5].surface;
-    EXPECT_NEAR((surface & 0xffffU) * kSurfaceStepM + kSurfaceFloorM, 50.0 - 50.0, kSurfaceStepM / 2);
-    EXPECT_EQ(surface >> 16, 1U);
-    EXPECT_EQ(block->vertices[6].surface >> 16, 0U);
+TEST(Block, AVertexHoldsItsHeightAboveTheSea) {
+    const auto block = unfold(slope_to_the_east(tile_at(46.5, 8.2, 14), 10.0), std::nullopt);
+    EXPECT_NEAR(block->vertices[5].height_msl_m(), 50.0 - 50.0, 0.5);
+    EXPECT_NEAR(block->vertices[32].height_msl_m(), 320.0 - 50.0, 0.5);
 }
 
 TEST(Block, TheSumOfASplitPositionIsExactToTenNanometres) {

@@ -66,23 +66,21 @@ TEST(NestedBlock, TheAntimeridianAndAPoleHaveOneSetOfBits) {
         const auto& west_of = last->vertices[static_cast<std::size_t>(row * kBlockPosts + kBlockCells)];
         const auto& east_of = first->vertices[static_cast<std::size_t>(row * kBlockPosts)];
         EXPECT_TRUE(same_place(west_of, east_of)) << row;
-        EXPECT_EQ(west_of.normal, east_of.normal) << row;
         EXPECT_TRUE(same_place(first->vertices[static_cast<std::size_t>(kBlockCells * kBlockPosts + row)],
                                last->vertices[kBlockCells * kBlockPosts]));
     }
 }
 
-TEST(NestedBlock, AVertexThatStaysPointsToItselfInTheParentAndHasItsNormal) {
+TEST(NestedBlock, AVertexThatStaysPointsToItselfInTheParent) {
     const TileId tile = tile_at(46.5, 8.2, 3);
     const auto above = unfolded(parent(tile)), block = unfolded(tile);
     int stay = 0;
     for (const BlockVertex& vertex : block->vertices) {
-        if ((vertex.motion >> 16 & 0xffU) != NestedMesh::kStays) continue;
+        if (vertex.gone_level() != NestedMesh::kStays) continue;
         ++stay;
-        const std::uint32_t there = vertex.motion & 0xffffU;
+        const std::uint32_t there = vertex.next();
         ASSERT_LT(there, above->vertices.size());
         EXPECT_TRUE(same_place(vertex, above->vertices[there]));
-        EXPECT_EQ(vertex.normal, above->vertices[there].normal);
     }
     EXPECT_EQ(stay, 17 * 17);
 }
@@ -95,10 +93,10 @@ TEST(NestedBlock, AFinePostThatStaysIsFoundInTheParentByItsExactPlace) {
                               fan_at(kX, kPlaceUnits / 2 + kY, 100.0F), nullptr, std::nullopt);
     const auto block = unfold(pattern_block(below), pattern_node(kPlanet, 3), fan_at(2 * kX, 2 * kY, 100.0F),
                               above.get(), std::nullopt);
-    EXPECT_EQ(block->vertices[4].motion & 0xffffU, 4U);
+    EXPECT_EQ(block->vertices[4].next(), 4U);
     EXPECT_TRUE(same_place(block->vertices[4], above->vertices[4]));
-    EXPECT_EQ(block->vertices[0].motion & 0xffffU, kNoVertex) << "the parent has no vertex there";
-    EXPECT_EQ(block->vertices[2].motion & 0xffffU, 2U);
+    EXPECT_EQ(block->vertices[0].next(), kNoVertex) << "the parent has no vertex there";
+    EXPECT_EQ(block->vertices[2].next(), 2U);
 }
 
 TEST(NestedBlock, EveryLevelsListHasTheVerticesThatAreStillThere) {
@@ -147,18 +145,18 @@ TEST(NestedBlock, WhatGoesAtTheFirstLevelIsInNoList) {
     EXPECT_EQ(block->levels.front().count(), (32U * 32 * 2 - 1) * 3);
 }
 
-TEST(NestedBlock, EdgeBitsSayWhichEdgesAVertexIsOn) {
+TEST(NestedBlock, SidesSayWhichEdgesAVertexIsOn) {
     const auto block = unfolded(tile_at(46.5, 8.2, 3));
     const auto edges = [&](int row, int column) {
-        return block->vertices[static_cast<std::size_t>(row * kBlockPosts + column)].motion >> 24;
+        return block->vertices[static_cast<std::size_t>(row * kBlockPosts + column)].sides();
     };
-    EXPECT_EQ(edges(0, 0), 0b0101U);
-    EXPECT_EQ(edges(32, 32), 0b1010U);
-    EXPECT_EQ(edges(5, 0), 0b0001U);
-    EXPECT_EQ(edges(5, 32), 0b0010U);
-    EXPECT_EQ(edges(0, 5), 0b0100U);
-    EXPECT_EQ(edges(32, 5), 0b1000U);
-    EXPECT_EQ(edges(5, 5), 0U);
+    EXPECT_EQ(edges(0, 0), 0b0101);
+    EXPECT_EQ(edges(32, 32), 0b1010);
+    EXPECT_EQ(edges(5, 0), 0b0001);
+    EXPECT_EQ(edges(5, 32), 0b0010);
+    EXPECT_EQ(edges(0, 5), 0b0100);
+    EXPECT_EQ(edges(32, 5), 0b1000);
+    EXPECT_EQ(edges(5, 5), 0);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ using terrain::Edge;
 using terrain::TileId;
 using DrawnTiles = std::unordered_set<TileId, terrain::TileHash>;
 
-/// Where a vertex is drawn, and the edges of its tile (bits as in BlockVertex::motion, from 0) that it is on,
+/// Where a vertex is drawn, and the edges of its tile (bits as in BlockVertex::sides) that it is on,
 /// has slid to, or has slid across.
 struct Moved {
     PointBits point{};
@@ -36,8 +36,7 @@ Moved moved(const BlockDraw& draw, std::uint16_t vertex, const terrain::MotionVi
     const unsigned edges = (drawn.place.x <= 0.0F ? 1U : 0U) | (drawn.place.x >= 1.0F ? 2U : 0U) |
                            (drawn.place.y <= 0.0F ? 4U : 0U) | (drawn.place.y >= 1.0F ? 8U : 0U);
     return {bits_of(drawn),
-            with_meridians_at_pole(draw.node->tile,
-                                   edges | (draw.node->block->vertices[vertex].motion >> 24 & 0xfU))};
+            with_meridians_at_pole(draw.node->tile, edges | draw.node->block->vertices[vertex].sides())};
 }
 
 std::vector<Moved> moved_vertices(const BlockDraw& draw, const terrain::MotionView& view) {

@@ -82,8 +82,7 @@ class Builder {
         const terrain::DrawnVertex drawn = terrain::drawn_vertex(*draw.node, index, draw.floors, motion_);
         const BlockVertex& own = draw.node->block->vertices[index];
         return {drawn.from_eye, on_earth(draw.node->tile, drawn.place),
-                glm::u16vec2{own.place & 0xffffU, own.place >> 16},
-                static_cast<std::uint8_t>((own.motion >> 24) & 0xfU)};
+                glm::u16vec2{own.place & 0xffffU, own.place >> 16}, own.sides()};
     }
 
     MeshKind kind_;
