@@ -25,6 +25,8 @@ namespace {
 
 /// Finished blocks taken over in a frame: bounds the uploads that one frame can be asked for.
 constexpr std::size_t kBlocksPublishedPerFrame = 128;
+/// 170 blocks, some 10 MB: a horizon that is right to a kilometre or two, wherever the eye jumps.
+constexpr std::uint32_t kBaseDepth = 3;
 
 double thread_cpu_ms() {
     timespec now{};
@@ -253,6 +255,7 @@ tl::expected<std::unique_ptr<Scene>, std::string> Scene::create(
                                                               .mesh = method->mesh_kind(),
                                                               .cell_bounds = options.horizon_culling,
                                                               .cache_bytes = options.block_cache_bytes,
+                                                              .base_depth = kBaseDepth,
                                                               .on_load = trace_loads(options.tracks)});
     if (!pager) return tl::unexpected(pager.error());
     return std::make_unique<TerrainScene>(std::move(*pager), std::move(method), std::move(*terrain),

@@ -13,12 +13,14 @@ bool has_loaded_child(const TileNode& node) {
                                         [](const TileNode& child) { return child.block != nullptr; });
 }
 
-/// Blocks that could go: loaded, not a root, no loaded child that was made from it or stands below it.
-void collect_unused(TileNode& node, std::uint64_t before_frame, std::vector<TileNode*>& unused) {
+/// Blocks that could go: loaded, not of the base, no loaded child that was made from it or stands below it.
+void collect_unused(TileNode& node, std::uint32_t base_depth, std::uint64_t before_frame,
+                    std::vector<TileNode*>& unused) {
     if (node.children) {
-        for (TileNode& child : *node.children) collect_unused(child, before_frame, unused);
+        for (TileNode& child : *node.children) collect_unused(child, base_depth, before_frame, unused);
     }
-    if (node.block && node.parent != nullptr && node.used_frame < before_frame && !has_loaded_child(node)) {
+    if (node.block && node.tile.depth > base_depth && node.used_frame < before_frame &&
+        !has_loaded_child(node)) {
         unused.push_back(&node);
     }
 }
@@ -29,9 +31,8 @@ tl::expected<std::unique_ptr<Pager>, std::string> Pager::create(std::shared_ptr<
                                                                 const PagerOptions& options) {
     std::unique_ptr<Pager> pager{new Pager(std::move(database), options)};
     for (TileNode& root : pager->tree_.roots()) {
-        Finished finished = pager->load({root.tile, true, root.info, nullptr, 0.0}, 0);
-        if (!finished.block) return tl::unexpected(finished.block.error());
-        pager->place(std::move(finished), 0);
+        pager->load_base(root);
+        if (root.unreadable) return tl::unexpected(pager->faults_.front());
     }
     for (unsigned i = 0; i < std::max(options.threads, 1U); ++i) {
         pager->threads_.emplace_back(
@@ -42,6 +43,13 @@ tl::expected<std::unique_ptr<Pager>, std::string> Pager::create(std::shared_ptr<
 
 Pager::Pager(std::shared_ptr<const Database> database, const PagerOptions& options)
     : database_(std::move(database)), options_(options), tree_(database_, options.mesh) {}
+
+void Pager::load_base(TileNode& node) {
+    const auto parent = node.parent != nullptr ? node.parent->block : nullptr;
+    place(load({node.tile, node.stored, node.info, parent, 0.0}, 0), 0);
+    if (!node.block || node.tile.depth >= options_.base_depth) return;
+    for (TileNode& child : tree_.children(node)) load_base(child);
+}
 
 Pager::~Pager() {
     for (std::jthread& thread : threads_) thread.request_stop();
@@ -159,7 +167,8 @@ void Pager::place(Finished finished, std::uint64_t frame) {
 void Pager::evict(std::uint64_t frame) {
     std::vector<TileNode*> unused;
     if (frame < kKeepFrames) return;
-    for (TileNode& root : tree_.roots()) collect_unused(root, frame - kKeepFrames, unused);
+    for (TileNode& root : tree_.roots())
+        collect_unused(root, options_.base_depth, frame - kKeepFrames, unused);
     std::sort(unused.begin(), unused.end(),
               [](const TileNode* a, const TileNode* b) { return a->used_frame < b->used_frame; });
     for (TileNode* node : unused) {

@@ -41,8 +41,11 @@ struct PagerOptions {
     bool cell_bounds = false;        ///< nested blocks get Block::bounds, for horizon culling
     /// Loaded blocks kept, bytes. Blocks in use are never dropped, so a view that needs more gets more.
     std::uint64_t cache_bytes = 512ULL << 20;
+    /// Tiles down to this depth are the base: loaded before create() returns, and never dropped. Wherever an
+    /// eye appears, a globe is there at once that is as good as they are.
+    std::uint32_t base_depth = 0;
     /// Called after each load, before it can be published, on its loader thread, so by several at once (for
-    /// the roots, by create() as thread 0, before there are any); empty: not called. It may not call the
+    /// the base, by create() as thread 0, before there are any); empty: not called. It may not call the
     /// pager.
     std::function<void(const BlockLoad&)> on_load{};
 };
@@ -65,7 +68,7 @@ struct PagerCounters {
 /// Thread use: every member from one thread (the frame's); the loader threads are inside.
 class Pager {
   public:
-    /// Loads the two root blocks before it returns; fails with one sentence if they cannot be read.
+    /// Loads the blocks of the base before it returns; fails with one sentence if a root cannot be read.
     [[nodiscard]] static tl::expected<std::unique_ptr<Pager>, std::string> create(
         std::shared_ptr<const Database> database, const PagerOptions& options);
     ~Pager();
@@ -115,6 +118,7 @@ class Pager {
     [[nodiscard]] tl::expected<Content, std::string> read(const Job& job) const;
     [[nodiscard]] tl::expected<Content, std::string> interpolate(const Job& job) const;
     [[nodiscard]] std::shared_ptr<const Block> unfold_content(const Job& job, Content content) const;
+    void load_base(TileNode& node);
     void place(Finished finished, std::uint64_t frame);
     void evict(std::uint64_t frame);
 

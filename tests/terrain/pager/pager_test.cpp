@@ -156,6 +156,28 @@ TEST_F(PagerTest, ADatabaseWithAnUnreadableRootIsRefusedInWords) {
     EXPECT_NE(pager.error().find("1-0.shard"), std::string::npos) << pager.error();
 }
 
+TEST_F(PagerTest, TheBaseIsThereAtOnceAndStays) {
+    const auto pager = open({.cache_bytes = 1, .base_depth = 3});
+    EXPECT_EQ(pager->counters().blocks, 2U + 8U + 32U + 128U);
+    EXPECT_GT(pager->counters().interpolated, 0U) << "the planet's tiles end at depth 2";
+    TileNode* node = &pager->tree().roots()[1];
+    while (node->tile.depth < 3) node = &pager->tree().children(*node)[2];
+    load(*pager, std::vector<BlockRequest>{{&pager->tree().children(*node)[0], 1.0}}, 1);
+    pager->publish(0, kLongAfter);
+    EXPECT_EQ(pager->counters().evicted, 1U);
+    EXPECT_NE(node->block, nullptr);
+}
+
+TEST_F(PagerTest, AnUnreadableTileOfTheBaseIsReportedAndItsParentStandsIn) {
+    const ScratchFolder scratch;
+    const auto folder = copy_to(scratch);
+    damage(folder, {1, 2, 1});
+    const auto database = std::make_shared<const Database>(Database::open(folder).value());
+    const auto pager = std::move(Pager::create(database, {.base_depth = 2}).value());
+    EXPECT_EQ(pager->counters().blocks, 2U + 7U + 28U);
+    EXPECT_EQ(pager->take_faults().size(), 1U);
+}
+
 TEST_F(PagerTest, TheMostWantedBlockIsLoadedFirst) {
     const auto pager = open({.threads = 1, .cache_bytes = kPlenty});
     auto wishes = wishes_below_roots(pager->tree(), kMixedPriorities);
