@@ -19,8 +19,8 @@ enum class DrawWhen : std::uint8_t { Always, OnChange };
 struct TerrainSettings {
     std::string database;  ///< folder of the terrain database
     std::string geoid;     ///< EGM96 grid (GeographicLib PGM); empty: the one built with Eyepoint
-    std::string lod_method = "regular";  ///< how blocks are chosen
-    double tau_px = 2.0;                ///< tolerance in pixels, 0.1..100
+    std::string lod_method = "nested";  ///< how blocks are chosen
+    double tau_px = 1.0;                ///< tolerance in pixels, 0.1..100
     std::uint32_t loader_threads = 1;   ///< 1..16
     std::uint32_t cache_mib = 512;      ///< loaded blocks kept, 64..65536
 };

@@ -24,8 +24,8 @@ class LodMethod;
 namespace eyepoint::ig {
 
 struct SceneOptions {
-    std::string lod_method = "regular";  ///< see terrain::lod_method_names()
-    double tau_px = 2.0;                ///< tolerance, pixels
+    std::string lod_method = "nested";  ///< see terrain::lod_method_names()
+    double tau_px = 1.0;                ///< tolerance, pixels
     double slack = 0.1;  ///< s as a share of tau: what a choice of level once made may exceed tau by
     bool morph = true;   ///< vertices slide from level to level; otherwise they jump
     bool horizon_culling = false;  ///< leave out what nearer terrain hides: the same picture; nested alone

@@ -22,7 +22,7 @@ struct Ground {
     std::string name;
     double latitude_deg = 0.0;
     double longitude_deg = 0.0;
-    std::string lod_method = "regular";
+    std::string lod_method = "nested";
 };
 
 void PrintTo(const Ground& ground, std::ostream* out) { *out << ground.name; }
@@ -127,10 +127,10 @@ INSTANTIATE_TEST_SUITE_P(Earth, Horizon,
                          ::testing::Values(Ground{"Equator", 0.0, 10.0}, Ground{"North47", 47.0, 8.0},
                                            Ground{"South60Antimeridian", -60.0, 179.9999},
                                            Ground{"NorthPole", 89.995, 120.0},
-                                           Ground{"EquatorNested", 0.0, 10.0, "nested"},
-                                           Ground{"North47Nested", 47.0, 8.0, "nested"},
-                                           Ground{"South60AntimeridianNested", -60.0, 179.9999, "nested"},
-                                           Ground{"NorthPoleNested", 89.995, 120.0, "nested"}),
+                                           Ground{"EquatorRegular", 0.0, 10.0, "regular"},
+                                           Ground{"North47Regular", 47.0, 8.0, "regular"},
+                                           Ground{"South60AntimeridianRegular", -60.0, 179.9999, "regular"},
+                                           Ground{"NorthPoleRegular", 89.995, 120.0, "regular"}),
                          [](const auto& instance) { return instance.param.name; });
 
 }  // namespace
