@@ -1,6 +1,5 @@
 #include "ig/scene.hpp"
 
-#include <ctime>
 #include <optional>
 #include <utility>
 
@@ -8,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "ig/lod_view.hpp"
+#include "ig/process_usage.hpp"
 #include "ig/render/floor_pass.hpp"
 #include "ig/render/frame_uniforms.hpp"
 #include "ig/render/resolve_pass.hpp"
@@ -25,12 +25,6 @@ namespace {
 
 /// Finished blocks taken over in a frame: bounds the uploads that one frame can be asked for.
 constexpr std::size_t kBlocksPublishedPerFrame = 128;
-
-double thread_cpu_ms() {
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
-}
 
 class TerrainScene final : public Scene {
   public:
