@@ -22,6 +22,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using std::chrono::seconds;
+using tools::ChildProcess;
+using tools::Ending;
 
 constexpr seconds kPatience{120};
 constexpr int kWidth = 320, kHeight = 180;

@@ -60,12 +60,11 @@ GoalLine culling_price_goal(const std::string& path, std::span<const TurnFrame> 
     }
     const double share =
         saved_ms > 0.0 ? 100.0 * cost_ms / saved_ms : std::numeric_limits<double>::infinity();
-    return at_most(9, "CPU that horizon culling takes, of what it saves in the frame, " + path, share, 10.0,
-                   "%");
+    return at_most(9, "CPU of horizon culling over what it saves, " + path, share, 10.0, "%");
 }
 
 GoalLine culling_cost_goal(const std::string& path, const FlightFigures& whole, const FlightFigures& culled) {
-    return at_most(9, "CPU that horizon culling takes where it hides next to nothing, " + path,
+    return at_most(9, "CPU of horizon culling where it hides next to nothing, " + path,
                    (culled.selection_us_mean - whole.selection_us_mean) * 1e-3, 0.1, "ms");
 }
 
@@ -111,7 +110,7 @@ GoalDone measure_culled_frames(GoalBench& bench, GoalReport& report) {
 
 GoalDone measure_idle_culling(GoalBench& bench, GoalReport& report) {
     for (const NamedPath& path : {NamedPath{"looking straight down", bench.paths().down_cruise},
-                                  NamedPath{"from 5,000 m", bench.paths().high_cruise}}) {
+                                  NamedPath{"20 km above ground", bench.paths().high_cruise}}) {
         const auto both = fly_both(bench, path.eyes);
         if (!both) return tl::unexpected(both.error());
         report.add(culling_cost_goal(path.name, both->whole, both->culled));

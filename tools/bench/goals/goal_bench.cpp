@@ -39,7 +39,7 @@ std::vector<ig::FlightEye> every_nth(const std::vector<ig::FlightEye>& eyes, std
 }
 
 tl::expected<GoalBench, std::string> GoalBench::open(GoalSettings settings) {
-    constexpr double kLowerM = 700.0, kHigherM = 4000.0;
+    constexpr double kLowerM = 700.0, kHigherM = 19000.0;
     auto field = terrain::Database::open(settings.terrain);
     if (!field) return tl::unexpected(field.error());
     auto cruise = read_eyes({.file = settings.paths / "cruise.csv", .size = kGoalPicture});

@@ -20,7 +20,7 @@ struct SelectionAtTau {
 /// Time and share of reuse at tau 1, time at all tolerances by its greatest over its least, heap allocations
 /// at all of them together. `flights`: not empty, one of them at tau 1.
 [[nodiscard]] std::vector<GoalLine> selection_goals(std::span<const SelectionAtTau> flights);
-/// None: not measured.
+/// Of choosing what to draw, without cutting it into cells; none: not measured.
 [[nodiscard]] GoalLine instructions_goal(std::optional<double> instructions_a_block);
 
 /// Cruise at five tolerances.
@@ -28,8 +28,5 @@ struct SelectionAtTau {
 /// Instructions by valgrind's callgrind, which runs `eyepoint-bench measure` and counts in selection alone;
 /// where there is no valgrind, or it cannot count there, a note says so.
 [[nodiscard]] GoalDone measure_instructions(GoalBench& bench, GoalReport& report);
-
-/// "Collected : 123" of what callgrind says at its end; none where it says nothing of the kind, or 0.
-[[nodiscard]] std::optional<std::uint64_t> instructions_collected(const std::string& said);
 
 }  // namespace eyepoint::tools
