@@ -1,7 +1,6 @@
 /// eyepoint-bench goals: everything that Eyepoint is to reach, met or missed.
 #include <array>
 #include <cstdlib>
-#include <fstream>
 #include <memory>
 #include <vector>
 
@@ -17,6 +16,7 @@
 #include "tools/bench/goals/mesh_goals.hpp"
 #include "tools/bench/goals/program_goals.hpp"
 #include "tools/bench/goals/selection_goals.hpp"
+#include "tools/report/page.hpp"
 
 namespace eyepoint::tools {
 
@@ -26,7 +26,7 @@ struct GoalsRequest {
     GoalSettings settings;
     std::string only;
     bool json = false;
-    std::filesystem::path out;
+    std::filesystem::path page;
 };
 
 /// A measurement and the goals that it has lines of.
@@ -57,11 +57,7 @@ const std::array kSteps{
 };
 
 void write(const std::filesystem::path& file, const std::string& text) {
-    std::error_code ignored;
-    std::filesystem::create_directories(file.parent_path(), ignored);
-    std::ofstream stream(file);
-    stream << text;
-    if (!stream.flush()) fail(file.string() + ": cannot be written; check the folder and free space");
+    if (auto written = write_whole(file, text); !written) fail(written.error());
 }
 
 GoalChoice chosen_by(const GoalsRequest& request) {
@@ -94,14 +90,10 @@ void run(const GoalsRequest& request) {
     if (!bench) fail(bench.error());
     GoalReport report(chosen, request.json ? std::function<void(const GoalLine&)>{} : print_line);
     measure(*bench, chosen, report);
-    const std::string json = to_json(report.lines(), machine, report.notes()).dump(2) + "\n";
-    if (request.json) fmt::print("{}", json);
+    if (request.json) fmt::print("{}\n", to_json(report.lines(), machine, report.notes()).dump(2));
     if (!request.json)
         for (const std::string& note : report.notes()) fmt::print("{}\n", note);
-    if (!request.out.empty()) {
-        write(request.out / "goals.md", markdown(report.lines(), machine, report.notes()));
-        write(request.out / "goals.json", json);
-    }
+    if (!request.page.empty()) write(request.page, markdown(report.lines(), machine, report.notes()));
     if (any_missed(report.lines())) std::exit(EXIT_FAILURE);
 }
 
@@ -139,7 +131,7 @@ void add_options(CLI::App& command, GoalsRequest& request) {
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
     command.add_flag("--json", request.json, "print JSON, at the end, instead of lines");
-    command.add_option("--out", request.out, "folder for goals.md and goals.json")->type_name("DIR");
+    command.add_option("--page", request.page, "page to write (Markdown)")->type_name("FILE");
 }
 
 }  // namespace

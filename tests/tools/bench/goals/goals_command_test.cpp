@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <chrono>
 #include <fstream>
+#include <iterator>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -65,11 +66,12 @@ TEST_F(GoalsCommand, ExitCodeIsOneWhenAGoalIsMissed) {
     EXPECT_TRUE(std::ranges::all_of(json["goals"], [](const auto& goal) { return goal["goal"] == 9; }));
 }
 
-TEST_F(GoalsCommand, LeavesAPageAndJsonWhereAskedTo) {
-    const auto out = scratch_.path() / "out";
-    EXPECT_EQ(run({"--only", "7", "--out", out.string()}).exit_code, 0);
-    EXPECT_TRUE(std::filesystem::exists(out / "goals.md"));
-    EXPECT_EQ(nlohmann::json::parse(std::ifstream(out / "goals.json"))["goals"].size(), 1U);
+TEST_F(GoalsCommand, LeavesAPageWhereAskedTo) {
+    const auto page = scratch_.path() / "goals.md";
+    EXPECT_EQ(run({"--only", "7", "--page", page.string()}).exit_code, 0);
+    std::ifstream stream(page);
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    EXPECT_THAT(text, HasSubstr("| 7 | heap allocations in selection"));
 }
 
 TEST_F(GoalsCommand, AGoalThatIsNoneIsOneClearLine) {
