@@ -23,9 +23,9 @@ inline constexpr double kComparedP999Px = 1.12;
 inline constexpr ig::PictureSize kGoalPicture{800, 800};
 
 struct GoalSettings {
-    std::filesystem::path terrain;   ///< the benchmark field's database
-    std::filesystem::path paths;     ///< folder of cruise.csv and sweep.csv, perhaps of the field's DEM
-    std::filesystem::path programs;  ///< folder of eyepoint, eyepoint-bench and eyepoint-terrain
+    std::filesystem::path terrain;                ///< the benchmark field's database
+    std::filesystem::path paths;                  ///< folder of cruise.csv and sweep.csv
+    std::filesystem::path programs;               ///< folder of eyepoint and eyepoint-bench
     std::optional<std::filesystem::path> flight;  ///< recorded flight for the goals of a frame; none: cruise
     std::filesystem::path flight_terrain;         ///< what it is flown over
     std::string lod_method = "nested";

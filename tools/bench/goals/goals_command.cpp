@@ -45,7 +45,7 @@ const std::array kSteps{
     Step{{5}, "comparing consecutive meshes", measure_jumps},
     Step{{5}, "drawing cruise by turns with morph and without", measure_morph},
     Step{{6}, "unfolding tiles", measure_blocks},
-    Step{{6}, "building the field anew", measure_compiler},
+    Step{{6}, "making all meshes anew", measure_compiler},
     Step{{8}, "drawing cruise and its floor by turns", measure_against_floor},
     Step{{9}, "counting what horizon culling leaves out", measure_hidden},
     Step{{9}, "drawing cruise by turns with horizon culling and without", measure_culled_frames},
@@ -109,9 +109,7 @@ void add_options(CLI::App& command, GoalsRequest& request) {
     command.add_option("--terrain", settings.terrain, "the benchmark field's database")
         ->type_name("DB")
         ->required();
-    command
-        .add_option("--paths", settings.paths,
-                    "folder of cruise.csv and sweep.csv; goal 6 wants the field's DEM in it, too")
+    command.add_option("--paths", settings.paths, "folder of cruise.csv and sweep.csv")
         ->check(CLI::ExistingDirectory)
         ->type_name("DIR")
         ->required();
