@@ -1,6 +1,5 @@
 #include "ig/scene.hpp"
 
-#include <ctime>
 #include <optional>
 #include <utility>
 
@@ -8,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "ig/lod_view.hpp"
+#include "ig/process_usage.hpp"
 #include "ig/render/floor_pass.hpp"
 #include "ig/render/frame_uniforms.hpp"
 #include "ig/render/resolve_pass.hpp"
@@ -27,12 +27,6 @@ namespace {
 constexpr std::size_t kBlocksPublishedPerFrame = 128;
 /// 170 blocks, some 10 MB: a horizon that is right to a kilometre or two, wherever the eye jumps.
 constexpr std::uint32_t kBaseDepth = 3;
-
-double thread_cpu_ms() {
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
-}
 
 class TerrainScene final : public Scene {
   public:

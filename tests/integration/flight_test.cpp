@@ -13,8 +13,8 @@
 #include <nlohmann/json.hpp>
 
 #include "net/udp_socket.hpp"
-#include "tests/integration/child_process.hpp"
 #include "tests/support/analytic_terrain.hpp"
+#include "tools/process/child_process.hpp"
 
 namespace eyepoint::testing {
 namespace {
@@ -22,6 +22,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using std::chrono::seconds;
+using tools::ChildProcess;
+using tools::Ending;
 
 constexpr seconds kPatience{120};
 constexpr int kWidth = 320, kHeight = 180;
@@ -90,16 +92,19 @@ class Flight : public ::testing::Test {
     void SetUp() override {
         (void)make_database(kHills, scratch_.path() / "terrain");
         const auto port = std::to_string(net::UdpSocket::bind("127.0.0.1", 0).value().local_port());
-        ChildProcess eyepoint({EYEPOINT_PROGRAM, "--terrain", (scratch_.path() / "terrain").string(),
-                               "--headless", "--output", pictures().string(), "--record", record().string(),
-                               "--size", std::to_string(kWidth) + "x" + std::to_string(kHeight), "--rate",
-                               std::to_string(kRateHz), "--listen", "127.0.0.1", "--port", port,
-                               "--end-after-silence", "1"});
+        auto eyepoint =
+            ChildProcess::start({EYEPOINT_PROGRAM, "--terrain", (scratch_.path() / "terrain").string(),
+                                 "--headless", "--output", pictures().string(), "--record", record().string(),
+                                 "--size", std::to_string(kWidth) + "x" + std::to_string(kHeight), "--rate",
+                                 std::to_string(kRateHz), "--listen", "127.0.0.1", "--port", port,
+                                 "--end-after-silence", "1"})
+                .value();
         ASSERT_TRUE(eyepoint.wait_for_error_text("ready: listening on 127.0.0.1 port " + port, kPatience))
             << eyepoint.wait(seconds(0)).standard_error;
-        ChildProcess replay({EYEPOINT_REPLAY_PROGRAM, "play",
-                             EYEPOINT_SOURCE_DIR "/tools/flights/goms-c172-60s-30hz.pcap", "--to",
-                             "127.0.0.1:" + port, "--until", std::to_string(kFlownS)});
+        auto replay = ChildProcess::start({EYEPOINT_REPLAY_PROGRAM, "play",
+                                           EYEPOINT_SOURCE_DIR "/tools/flights/goms-c172-60s-30hz.pcap",
+                                           "--to", "127.0.0.1:" + port, "--until", std::to_string(kFlownS)})
+                          .value();
         replay_ = replay.wait(kPatience);
         eyepoint_ = eyepoint.wait(kPatience);
     }

@@ -17,8 +17,8 @@
 #include "net/endpoint.hpp"
 #include "net/pcap_file.hpp"
 #include "net/udp_socket.hpp"
-#include "tests/integration/child_process.hpp"
 #include "tests/support/analytic_terrain.hpp"
+#include "tools/process/child_process.hpp"
 
 namespace eyepoint::testing {
 
@@ -52,7 +52,7 @@ class Run : public ::testing::Test {
             "--listen",       "127.0.0.1",      "--port",          std::to_string(port),
             "--record",       record().string()};
         arguments.insert(arguments.begin(), needed.begin(), needed.end());
-        program_.emplace(arguments);
+        program_ = tools::ChildProcess::start(arguments).value();
         ASSERT_TRUE(program_->wait_for_error_text(
             "ready: listening on 127.0.0.1 port " + std::to_string(port), kPatience))
             << program_->wait(std::chrono::seconds(0)).standard_error;
@@ -71,7 +71,7 @@ class Run : public ::testing::Test {
 
     [[nodiscard]] std::string end_with(const std::optional<int>& signal) {
         if (signal) program_->send_signal(*signal);
-        const Ending ending = program_->wait(kPatience);
+        const tools::Ending ending = program_->wait(kPatience);
         EXPECT_EQ(ending.exit_code, 0) << ending.standard_error;
         EXPECT_EQ(std::ranges::count(ending.standard_output, '\n'), 1) << ending.standard_output;
         log_ = ending.standard_error;
@@ -85,7 +85,7 @@ class Run : public ::testing::Test {
     std::vector<net::CapturedDatagram> flight_;
     net::UdpSocket host_ = net::UdpSocket::bind("127.0.0.1", 0).value();
     net::Endpoint to_;
-    std::optional<ChildProcess> program_;
+    std::optional<tools::ChildProcess> program_;
     std::string log_;
 };
 

@@ -10,13 +10,15 @@
 #include <gtest/gtest.h>
 
 #include "net/udp_socket.hpp"
-#include "tests/integration/child_process.hpp"
 #include "tests/support/analytic_terrain.hpp"
+#include "tools/process/child_process.hpp"
 
 namespace eyepoint::testing {
 namespace {
 
 namespace fs = std::filesystem;
+using tools::ChildProcess;
+using tools::Ending;
 using Environment = std::vector<std::pair<std::string, std::string>>;
 using std::chrono::seconds;
 
@@ -30,7 +32,7 @@ class StartupFailure : public ::testing::Test {
 
     [[nodiscard]] Ending run(std::vector<std::string> arguments, const Environment& environment = {}) const {
         arguments.insert(arguments.begin(), EYEPOINT_PROGRAM);
-        return ChildProcess(arguments, environment).wait(seconds(60));
+        return ChildProcess::start(arguments, environment).value().wait(seconds(60));
     }
 
     /// With all that a start needs, and a port that is free.

@@ -20,9 +20,6 @@ namespace eyepoint::tools {
 
 namespace {
 
-/// Its number among the goals that are printed.
-constexpr int kFrameGoal = 10;
-
 struct FlightRequest {
     BenchOptions drawing;
     std::filesystem::path flight;
@@ -66,7 +63,7 @@ void write(const std::filesystem::path& file, const std::string& text) {
 void keep(const FlightRequest& request, const BenchResult& bench) {
     FlightResult result = flight_result(bench, identity_of(request));
     if (request.goals)
-        for (const GoalLine& line : frame_goals(result, kFrameGoal)) fmt::print("{}\n", describe(line));
+        for (const GoalLine& line : frame_goals(result)) fmt::print("{}\n", describe(line));
     if (request.counts_only) result = counts_of(std::move(result));
     if (!request.json.empty()) write(request.json, to_json_text(result));
     if (request.html.empty()) return;

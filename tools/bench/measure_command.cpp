@@ -29,6 +29,7 @@ struct MeasureRequest {
     double tau_px = 1.0;
     double slack_px = 0.0;
     std::string morph = "on";
+    bool selection_only = false;
     std::size_t first_frames = 0;
     std::optional<double> match_p999_px;
     std::optional<std::filesystem::path> json;
@@ -118,6 +119,7 @@ void run_measure(const MeasureRequest& request, LodFlight& flight, FullSurface& 
 
 void run(MeasureRequest request) {
     request.options.morph = request.morph == "on";
+    if (request.selection_only) request.options.posts = request.options.pops = request.options.faults = false;
     request.flight.allocations = heap_allocations;
     const std::vector<ig::FlightEye> eyes = eyes_of(request);
     auto opened = terrain::Database::open(request.terrain);
@@ -145,6 +147,8 @@ void add_measuring(CLI::App& command, MeasureRequest& request) {
         ->capture_default_str();
     command.add_flag("--cull", request.flight.cull,
                      "nested alone: leave out what nearer terrain hides; posts there count as uncovered");
+    command.add_flag("--selection-only", request.selection_only,
+                     "measure what selection does, not the mesh: no post error, no jumps, no cracks");
     command.add_option("--every", request.options.every, "measure every so-manieth frame")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();

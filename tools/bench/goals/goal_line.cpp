@@ -1,8 +1,10 @@
 #include "tools/bench/goals/goal_line.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <thread>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -15,9 +17,23 @@ std::string with_unit(double value, const std::string& unit) {
     return unit.empty() ? number : number + " " + unit;
 }
 
+std::string figure(const GoalLine& line) { return line.figure ? with_unit(*line.figure, line.unit) : "-"; }
+
 std::string target(const GoalLine& line) {
     return (line.sense == GoalLine::Sense::AtMost ? "at most " : "at least ") +
            with_unit(line.target, line.unit);
+}
+
+const char* name(Verdict verdict) {
+    switch (verdict) {
+        case Verdict::Met:
+            return "met";
+        case Verdict::Missed:
+            return "MISSED";
+        case Verdict::NotMeasured:
+            break;
+    }
+    return "not measured";
 }
 
 std::string processor() {
@@ -30,6 +46,24 @@ std::string processor() {
 
 }  // namespace
 
+Verdict GoalLine::verdict() const {
+    if (!figure) return Verdict::NotMeasured;
+    const bool good = sense == Sense::AtMost ? *figure <= target : *figure >= target;
+    return good ? Verdict::Met : Verdict::Missed;
+}
+
+GoalLine at_most(int goal, std::string what, std::optional<double> figure, double target, std::string unit) {
+    return {goal, std::move(what), figure, GoalLine::Sense::AtMost, target, std::move(unit)};
+}
+
+GoalLine at_least(int goal, std::string what, std::optional<double> figure, double target, std::string unit) {
+    return {goal, std::move(what), figure, GoalLine::Sense::AtLeast, target, std::move(unit)};
+}
+
+bool any_missed(std::span<const GoalLine> lines) {
+    return std::ranges::any_of(lines, [](const GoalLine& line) { return line.verdict() == Verdict::Missed; });
+}
+
 std::string machine_name() {
     return fmt::format("{}, {} cores", processor(), std::thread::hardware_concurrency());
 }
@@ -41,18 +75,18 @@ std::string describe_machine() {
 }
 
 std::string describe(const GoalLine& line) {
-    return fmt::format("{}  {:<72}{:>14}  {:<22}{}", line.goal, line.what, with_unit(line.figure, line.unit),
-                       target(line), line.met() ? "met" : "MISSED");
+    return fmt::format("{:>2}  {:<76}{:>14}  {:<22}{}", line.goal, line.what, figure(line), target(line),
+                       name(line.verdict()));
 }
 
 std::string markdown(std::span<const GoalLine> lines, const std::string& machine,
                      std::span<const std::string> notes) {
-    std::string text = "# Level-of-detail goals, last run\n\nMachine: " + machine + "\n\n";
+    std::string text = "# Goals, last run\n\nMachine: " + machine + "\n\n";
     text += "| goal | measured | figure | target | |\n| --- | --- | --- | --- | --- |\n";
     for (const GoalLine& line : lines) {
-        text +=
-            fmt::format("| {} | {} | {} | {} | {} |\n", line.goal, line.what,
-                        with_unit(line.figure, line.unit), target(line), line.met() ? "met" : "**missed**");
+        const char* emphasis = line.verdict() == Verdict::Missed ? "**" : "";
+        text += fmt::format("| {} | {} | {} | {} | {}{}{} |\n", line.goal, line.what, figure(line),
+                            target(line), emphasis, name(line.verdict()), emphasis);
     }
     for (const std::string& note : notes) text += "\n" + note + "\n";
     return text;
@@ -60,15 +94,15 @@ std::string markdown(std::span<const GoalLine> lines, const std::string& machine
 
 nlohmann::json to_json(std::span<const GoalLine> lines, const std::string& machine,
                        std::span<const std::string> notes) {
-    nlohmann::json json{{"machine", machine}, {"notes", notes}};
+    nlohmann::json json{{"machine", machine}, {"notes", notes}, {"goals", nlohmann::json::array()}};
     for (const GoalLine& line : lines) {
         json["goals"].push_back({{"goal", line.goal},
                                  {"what", line.what},
-                                 {"figure", line.figure},
+                                 {"figure", line.figure ? nlohmann::json(*line.figure) : nullptr},
                                  {"target", line.target},
                                  {"sense", line.sense == GoalLine::Sense::AtMost ? "at most" : "at least"},
                                  {"unit", line.unit},
-                                 {"met", line.met()}});
+                                 {"verdict", name(line.verdict())}});
     }
     return json;
 }

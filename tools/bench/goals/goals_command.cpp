@@ -1,72 +1,135 @@
-/// eyepoint-bench goals: the level of detail's goals, met or missed.
+/// eyepoint-bench goals: everything that Eyepoint is to reach, met or missed.
+#include <array>
 #include <cstdlib>
-#include <fstream>
 #include <memory>
+#include <vector>
 
 #include <fmt/format.h>
 
-#include "ig/lod_view.hpp"
-#include "terrain/geodesy/earth.hpp"
 #include "tools/bench/allocation_count.hpp"
 #include "tools/bench/command_options.hpp"
-#include "tools/bench/eyes.hpp"
-#include "tools/bench/goals/lod_goals.hpp"
+#include "tools/bench/goals/block_goals.hpp"
+#include "tools/bench/goals/control_goals.hpp"
+#include "tools/bench/goals/culling_goals.hpp"
+#include "tools/bench/goals/drawing_goals.hpp"
+#include "tools/bench/goals/frame_goals.hpp"
+#include "tools/bench/goals/mesh_goals.hpp"
+#include "tools/bench/goals/program_goals.hpp"
+#include "tools/bench/goals/selection_goals.hpp"
+#include "tools/report/page.hpp"
 
 namespace eyepoint::tools {
 
 namespace {
 
 struct GoalsRequest {
-    std::filesystem::path terrain;
-    std::filesystem::path paths;
-    std::filesystem::path out;
-    std::string lod_method = "nested";
-    std::size_t every = 20;
+    GoalSettings settings;
+    std::string only;
+    bool json = false;
+    std::filesystem::path page;
 };
 
-/// The benchmark's path, so much lower.
-std::vector<terrain::LodView> views_of(const std::filesystem::path& file, double lower_m = 0.0) {
-    auto eyes = read_eyes({.file = file});
-    if (!eyes) fail(eyes.error());
-    std::vector<terrain::LodView> views;
-    for (ig::FlightEye& eye : *eyes) {
-        terrain::Geodetic& place = eye.eyepoint.place;
-        place.height = terrain::EllipsoidalHeight{place.height.metres() - lower_m};
-        eye.eyepoint.view.eye_ecef = terrain::to_ecef(place);
-        views.push_back(ig::lod_view(eye.eyepoint.view, 1.0, 0.0));
-    }
-    return views;
-}
+/// A measurement and the goals that it has lines of.
+struct Step {
+    std::vector<int> goals;
+    const char* doing;
+    GoalDone (*measure)(GoalBench&, GoalReport&);
+};
+
+const std::array kSteps{
+    Step{{1}, "matching tolerances to the field's measure of comparison", measure_triangles},
+    Step{{2}, "comparing meshes with all posts at twelve tolerances", measure_post_error},
+    Step{{3}, "drawing cruise by turns with regular levels", measure_against_regular},
+    Step{{4, 7}, "selecting along cruise at five tolerances", measure_selection},
+    Step{{4}, "counting instructions of selection with valgrind", measure_instructions},
+    Step{{5}, "comparing consecutive meshes", measure_jumps},
+    Step{{5}, "drawing cruise by turns with morph and without", measure_morph},
+    Step{{6}, "unfolding tiles", measure_blocks},
+    Step{{6}, "making all meshes anew", measure_compiler},
+    Step{{8}, "drawing cruise and its floor by turns", measure_against_floor},
+    Step{{9}, "counting what horizon culling leaves out", measure_hidden},
+    Step{{9}, "drawing cruise by turns with horizon culling and without", measure_culled_frames},
+    Step{{9}, "timing horizon culling where it hides nothing", measure_idle_culling},
+    Step{{10, 11, 12}, "drawing a flight, and every fifth frame as a static mesh", measure_frames},
+    Step{{13}, "running eyepoint with an eye that stands still", measure_idle},
+    Step{{14}, "flying sweep under tolerance control, four times", measure_control},
+    Step{{15}, "running eyepoint at 60 Hz", measure_delay},
+};
 
 void write(const std::filesystem::path& file, const std::string& text) {
-    std::error_code ignored;
-    std::filesystem::create_directories(file.parent_path(), ignored);
-    std::ofstream stream(file);
-    stream << text;
-    if (!stream.flush()) fail(file.string() + ": cannot be written; check the folder and free space");
+    if (auto written = write_whole(file, text); !written) fail(written.error());
+}
+
+GoalChoice chosen_by(const GoalsRequest& request) {
+    if (request.only.empty()) return {};
+    const auto chosen = GoalChoice::parse(request.only);
+    if (!chosen) fail("--only: " + chosen.error());
+    return *chosen;
+}
+
+void print_line(const GoalLine& line) {
+    fmt::print("{}\n", describe(line));
+    std::fflush(stdout);
+}
+
+void measure(GoalBench& bench, const GoalChoice& chosen, GoalReport& report) {
+    for (const Step& step : kSteps) {
+        if (!chosen.has_any(step.goals)) continue;
+        fmt::print(stderr, "{} ...\n", step.doing);
+        if (const GoalDone done = step.measure(bench, report); !done) fail(done.error());
+    }
 }
 
 void run(const GoalsRequest& request) {
-    constexpr double kLowerM = 700.0;
-    auto field = terrain::Database::open(request.terrain);
-    if (!field) fail(field.error());
+    const GoalChoice chosen = chosen_by(request);
+    GoalSettings settings = request.settings;
+    settings.programs = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+    settings.allocations = heap_allocations;
     const std::string machine = describe_machine();
-    LodGoals goals(std::make_shared<const terrain::Database>(std::move(*field)),
-                   {views_of(request.paths / "cruise.csv"), views_of(request.paths / "sweep.csv"),
-                    views_of(request.paths / "cruise.csv", kLowerM)},
-                   {.lod_method = request.lod_method, .allocations = heap_allocations}, request.every);
-    const auto figures = goals.measure([](const GoalLine& line) {
-        fmt::print("{}\n", describe(line));
-        std::fflush(stdout);
-    });
-    if (!figures) fail(figures.error());
-    for (const std::string& note : figures->notes) fmt::print("{}\n", note);
-    if (!request.out.empty()) {
-        write(request.out / "goals.md", markdown(figures->lines, machine, figures->notes));
-        write(request.out / "goals.json", to_json(figures->lines, machine, figures->notes).dump(2) + "\n");
-    }
-    for (const GoalLine& line : figures->lines)
-        if (!line.met()) std::exit(EXIT_FAILURE);
+    auto bench = GoalBench::open(std::move(settings));
+    if (!bench) fail(bench.error());
+    GoalReport report(chosen, request.json ? std::function<void(const GoalLine&)>{} : print_line);
+    measure(*bench, chosen, report);
+    if (request.json) fmt::print("{}\n", to_json(report.lines(), machine, report.notes()).dump(2));
+    if (!request.json)
+        for (const std::string& note : report.notes()) fmt::print("{}\n", note);
+    if (!request.page.empty()) write(request.page, markdown(report.lines(), machine, report.notes()));
+    if (any_missed(report.lines())) std::exit(EXIT_FAILURE);
+}
+
+std::string goals_by_number() {
+    std::string text = "Goals:\n";
+    for (const GoalSubject& goal : kGoalSubjects)
+        text += fmt::format("  {:>2}  {}\n", goal.number, goal.what);
+    return text;
+}
+
+void add_options(CLI::App& command, GoalsRequest& request) {
+    GoalSettings& settings = request.settings;
+    command.add_option("--terrain", settings.terrain, "the benchmark field's database")
+        ->type_name("DB")
+        ->required();
+    command.add_option("--paths", settings.paths, "folder of cruise.csv and sweep.csv")
+        ->check(CLI::ExistingDirectory)
+        ->type_name("DIR")
+        ->required();
+    auto* flight = command
+                       .add_option("--flight", settings.flight,
+                                   "recorded flight for goals 10 to 12 (pcap); otherwise cruise is flown")
+                       ->type_name("FILE");
+    auto* flight_terrain =
+        command.add_option("--flight-terrain", settings.flight_terrain, "database that it is flown over")
+            ->type_name("DB");
+    flight->needs(flight_terrain);
+    command.add_option("--only", request.only, "only these goals, by number: 3,8")->type_name("GOALS");
+    command.add_option("--lod", settings.lod_method, "level-of-detail method")->capture_default_str();
+    command
+        .add_option("--every", settings.every,
+                    "compare the mesh with all posts, and draw by turns, every so-manieth frame")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    command.add_flag("--json", request.json, "print JSON, at the end, instead of lines");
+    command.add_option("--page", request.page, "page to write (Markdown)")->type_name("FILE");
 }
 
 }  // namespace
@@ -74,23 +137,12 @@ void run(const GoalsRequest& request) {
 void add_goals_command(CLI::App& program) {
     auto request = std::make_shared<GoalsRequest>();
     auto* command = program.add_subcommand(
-        "goals", "Measures the level of detail against its goals; exit code 1 when one is missed.");
-    command->add_option("--terrain", request->terrain, "the benchmark field's database")
-        ->type_name("DB")
-        ->required();
-    command->add_option("--paths", request->paths, "folder of cruise.csv and sweep.csv")
-        ->check(CLI::ExistingDirectory)
-        ->type_name("DIR")
-        ->required();
-    command->add_option("--lod", request->lod_method, "level-of-detail method")->capture_default_str();
-    command->add_option("--every", request->every, "compare the mesh with all posts every so-manieth frame")
-        ->check(CLI::PositiveNumber)
-        ->capture_default_str();
-    command->add_option("--out", request->out, "folder for goals.md and goals.json")->type_name("DIR");
+        "goals", "Measures Eyepoint against its goals, a line each; exit code 1 when one is missed.");
+    add_options(*command, *request);
     command->callback([request] { run(*request); });
-    command->footer(
-        "Example: eyepoint-bench goals --terrain FIELD --paths $EYEPOINT_REAL_DATA/benchmark --out "
-        "docs/results");
+    command->footer(goals_by_number() +
+                    "Example: eyepoint-bench goals --terrain FIELD --paths $EYEPOINT_REAL_DATA/benchmark\n"
+                    "           --flight tools/flights/goms-c172-60s-30hz.pcap --flight-terrain sample.db");
 }
 
 }  // namespace eyepoint::tools

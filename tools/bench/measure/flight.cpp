@@ -1,24 +1,14 @@
 #include "tools/bench/measure/flight.hpp"
 
-#include <ctime>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "ig/process_usage.hpp"
 #include "terrain/lod/lod_method.hpp"
 
 namespace eyepoint::tools {
-
-namespace {
-
-double thread_cpu_ns() {
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) * 1e9 + static_cast<double>(now.tv_nsec);
-}
-
-}  // namespace
 
 tl::expected<std::unique_ptr<LodFlight>, std::string> LodFlight::create(
     std::shared_ptr<const terrain::Database> database, const FlightOptions& options) {
@@ -41,16 +31,20 @@ LodFlight::LodFlight(std::unique_ptr<terrain::Pager> pager, std::unique_ptr<terr
     : pager_(std::move(pager)), method_(std::move(method)), allocations_(allocations) {}
 
 const terrain::Selection& LodFlight::select(const terrain::LodView& view) {
-    ++frame_;
     const std::uint64_t allocated = allocations_ != nullptr ? allocations_() : 0;
-    const double start_ns = thread_cpu_ns();
-    const terrain::Selection& selection = method_->select(view, pager_->tree(), frame_);
-    work_.cpu_ns = thread_cpu_ns() - start_ns;
+    constexpr double kNsPerMs = 1e6;
+    const double start_ms = ig::thread_cpu_ms();
+    const terrain::Selection& selection = choose(view);
+    work_.cpu_ns = (ig::thread_cpu_ms() - start_ms) * kNsPerMs;
     work_.allocations = allocations_ != nullptr ? allocations_() - allocated : 0;
     work_.blocks_wished = selection.wishes.size();
     work_.uploaded_bytes = count_uploads(selection);
     pager_->request(selection.wishes);
     return selection;
+}
+
+[[gnu::noinline]] const terrain::Selection& LodFlight::choose(const terrain::LodView& view) {
+    return method_->select(view, pager_->tree(), ++frame_);
 }
 
 std::uint64_t LodFlight::count_uploads(const terrain::Selection& selection) {
@@ -67,7 +61,8 @@ const terrain::Selection& LodFlight::settle(const terrain::LodView& view) {
     constexpr std::size_t kAll = static_cast<std::size_t>(-1);
     while (true) {
         (void)pager_->publish(kAll, frame_);
-        const terrain::Selection& selection = select(view);
+        const terrain::Selection& selection = method_->select(view, pager_->tree(), ++frame_);
+        pager_->request(selection.wishes);
         if (!pager_->wait_for_loads()) return selection;
     }
 }

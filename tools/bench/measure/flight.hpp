@@ -52,6 +52,8 @@ class LodFlight {
   private:
     LodFlight(std::unique_ptr<terrain::Pager> pager, std::unique_ptr<terrain::LodMethod> method,
               std::uint64_t (*allocations)());
+    /// What select() measures and settle() does not call, by itself: a profiler can count in it alone.
+    const terrain::Selection& choose(const terrain::LodView& view);
     [[nodiscard]] std::uint64_t count_uploads(const terrain::Selection& selection);
 
     std::unique_ptr<terrain::Pager> pager_;

@@ -1,11 +1,11 @@
 #include "tools/bench/measure/unfolding.hpp"
 
 #include <algorithm>
-#include <ctime>
 #include <map>
 #include <memory>
 #include <vector>
 
+#include "ig/process_usage.hpp"
 #include "terrain/block/block.hpp"
 
 namespace eyepoint::tools {
@@ -14,12 +14,6 @@ namespace {
 
 using terrain::Block;
 using terrain::TileId;
-
-double thread_cpu_ms() {
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
-}
 
 /// Unfolds tiles with their ancestors, each once.
 class Unfolder {
@@ -34,15 +28,15 @@ class Unfolder {
             if (!unfolded) return unfolded;
             above = *unfolded;
         }
-        const double start_ms = thread_cpu_ms();
+        const double start_ms = ig::thread_cpu_ms();
         auto block = database_.read_block(tile);
         if (!block) return tl::unexpected(block.error());
         const auto mesh = database_.read_mesh(tile);
         if (!mesh) return tl::unexpected(mesh.error());
-        const double read_ms = thread_cpu_ms();
+        const double read_ms = ig::thread_cpu_ms();
         auto unfolded =
             terrain::unfold(std::move(*block), *database_.find(tile), *mesh, above.get(), std::nullopt);
-        unfold_ms_.push_back(thread_cpu_ms() - read_ms);
+        unfold_ms_.push_back(ig::thread_cpu_ms() - read_ms);
         read_ms_.push_back(read_ms - start_ms);
         return blocks_.emplace(tile, std::move(unfolded)).first->second;
     }

@@ -24,8 +24,8 @@ FlightResult result_of() {
 }
 
 double figure_of(const std::string& what) {
-    for (const GoalLine& line : frame_goals(result_of(), 1))
-        if (line.what.starts_with(what)) return line.figure;
+    for (const GoalLine& line : frame_goals(result_of()))
+        if (line.what.starts_with(what)) return line.figure.value();
     return kAbsent;
 }
 
@@ -41,7 +41,15 @@ TEST(FrameGoals, SteadyFramesUploadNothingAndDoNotFollowAStaticMeshOrTheStart) {
     EXPECT_EQ(figure_of("new programs and state pairs"), 1.0);
 }
 
-TEST(FrameGoals, WhatWasNotMeasuredHasNoLine) { EXPECT_TRUE(frame_goals(FlightResult{}, 1).empty()); }
+TEST(FrameGoals, ADearFrameMissesItsGoalAndACheapOneMeetsIt) {
+    FlightResult dear = result_of();
+    const auto verdict = [](const FlightResult& result) { return price_goals(result).front().verdict(); };
+    EXPECT_EQ(verdict(dear), Verdict::Missed);
+    dear.columns["still_cpu_ms"] = {9.5, kAbsent, 9.5, kAbsent};
+    EXPECT_EQ(verdict(dear), Verdict::Met);
+}
+
+TEST(FrameGoals, WhatWasNotMeasuredHasNoLine) { EXPECT_TRUE(frame_goals(FlightResult{}).empty()); }
 
 }  // namespace
 }  // namespace eyepoint::tools

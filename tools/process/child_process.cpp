@@ -1,10 +1,10 @@
-#include "tests/integration/child_process.hpp"
+#include "tools/process/child_process.hpp"
 
 #include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
-#include <stdexcept>
+#include <utility>
 
 #include <sys/wait.h>
 
@@ -15,7 +15,7 @@
 
 extern char** environ;
 
-namespace eyepoint::testing {
+namespace eyepoint::tools {
 
 namespace {
 
@@ -54,28 +54,43 @@ void drain(int& descriptor, std::string& into) {
 
 }  // namespace
 
-ChildProcess::ChildProcess(std::vector<std::string> arguments,
-                           const std::vector<std::pair<std::string, std::string>>& environment) {
+tl::expected<ChildProcess, std::string> ChildProcess::start(
+    std::vector<std::string> arguments, const std::vector<std::pair<std::string, std::string>>& environment) {
     std::array<int, 2> output{}, error{};
-    if (pipe2(output.data(), O_CLOEXEC) != 0 || pipe2(error.data(), O_CLOEXEC) != 0) {
-        throw std::runtime_error("no pipe can be made");
+    if (pipe2(output.data(), O_CLOEXEC) != 0)
+        return tl::unexpected(arguments[0] + ": no pipe can be made; too many files are open");
+    if (pipe2(error.data(), O_CLOEXEC) != 0) {
+        for (const int end : output) close(end);
+        return tl::unexpected(arguments[0] + ": no pipe can be made; too many files are open");
     }
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, output[1], STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&actions, error[1], STDERR_FILENO);
     auto variables = joined_environment(environment);
-    const int fault = posix_spawnp(&child_, arguments[0].c_str(), &actions, nullptr,
+    pid_t child = -1;
+    const int fault = posix_spawnp(&child, arguments[0].c_str(), &actions, nullptr,
                                    pointers_to(arguments).data(), pointers_to(variables).data());
     posix_spawn_file_actions_destroy(&actions);
     close(output[1]);
     close(error[1]);
-    output_ = output[0];
-    error_ = error[0];
-    if (fault != 0) {
-        child_ = -1;
-        throw std::runtime_error(arguments[0] + ": " + std::strerror(fault));
-    }
+    ChildProcess process(fault == 0 ? child : -1, output[0], error[0]);
+    if (fault != 0) return tl::unexpected(arguments[0] + " cannot be started: " + std::strerror(fault));
+    return process;
+}
+
+ChildProcess::ChildProcess(ChildProcess&& other) noexcept
+    : child_(std::exchange(other.child_, -1)),
+      output_(std::exchange(other.output_, -1)),
+      error_(std::exchange(other.error_, -1)),
+      ending_(std::move(other.ending_)) {}
+
+ChildProcess& ChildProcess::operator=(ChildProcess&& other) noexcept {
+    std::swap(child_, other.child_);
+    std::swap(output_, other.output_);
+    std::swap(error_, other.error_);
+    std::swap(ending_, other.ending_);
+    return *this;
 }
 
 ChildProcess::~ChildProcess() {
@@ -119,4 +134,4 @@ Ending ChildProcess::wait(std::chrono::seconds patience) {
     return ending_;
 }
 
-}  // namespace eyepoint::testing
+}  // namespace eyepoint::tools

@@ -1,4 +1,4 @@
-/// A program under test: started, listened to, stopped.
+/// Another program: started, listened to, stopped.
 #pragma once
 
 #include <chrono>
@@ -9,7 +9,9 @@
 
 #include <sys/types.h>
 
-namespace eyepoint::testing {
+#include <tl/expected.hpp>
+
+namespace eyepoint::tools {
 
 /// How a program ended.
 struct Ending {
@@ -22,13 +24,14 @@ struct Ending {
 /// thread.
 class ChildProcess {
   public:
-    /// arguments[0] is the program; `environment` is added to this process's own. Throws std::runtime_error
-    /// when it cannot be started.
-    explicit ChildProcess(std::vector<std::string> arguments,
-                          const std::vector<std::pair<std::string, std::string>>& environment = {});
+    /// arguments[0] is the program, a path or a name on PATH; `environment` is added to this process's own.
+    /// On failure: one sentence.
+    [[nodiscard]] static tl::expected<ChildProcess, std::string> start(
+        std::vector<std::string> arguments,
+        const std::vector<std::pair<std::string, std::string>>& environment = {});
+    ChildProcess(ChildProcess&& other) noexcept;
+    ChildProcess& operator=(ChildProcess&& other) noexcept;
     ~ChildProcess();
-    ChildProcess(const ChildProcess&) = delete;
-    ChildProcess& operator=(const ChildProcess&) = delete;
 
     /// Waits until standard error holds the text; false when the program ends or the time passes first.
     [[nodiscard]] bool wait_for_error_text(const std::string& text, std::chrono::seconds patience);
@@ -38,6 +41,7 @@ class ChildProcess {
     [[nodiscard]] Ending wait(std::chrono::seconds patience);
 
   private:
+    ChildProcess(pid_t child, int output, int error) : child_(child), output_(output), error_(error) {}
     /// Reads what has come, at most `patience` long; false once both streams are closed.
     bool read_some(std::chrono::milliseconds patience);
 
@@ -47,4 +51,4 @@ class ChildProcess {
     Ending ending_;
 };
 
-}  // namespace eyepoint::testing
+}  // namespace eyepoint::tools

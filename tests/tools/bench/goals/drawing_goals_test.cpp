@@ -1,0 +1,36 @@
+#include "tools/bench/goals/drawing_goals.hpp"
+
+#include <array>
+
+#include <gtest/gtest.h>
+
+namespace eyepoint::tools {
+namespace {
+
+TEST(DrawingGoals, RatiosAreMediansOverEyesOfFramesBesideEachOther) {
+    // The machine was three times slower at the second eye, for both.
+    const std::array regular{TurnFrame{.cpu_ms = 100.0}, TurnFrame{.cpu_ms = 300.0},
+                             TurnFrame{.cpu_ms = 100.0}};
+    const std::array method{TurnFrame{.cpu_ms = 45.0}, TurnFrame{.cpu_ms = 135.0}, TurnFrame{.cpu_ms = 90.0}};
+    EXPECT_DOUBLE_EQ(frame_ratio({regular, method}), 0.45);
+    EXPECT_EQ(regular_goal({regular, method}).verdict(), Verdict::Met);
+    EXPECT_EQ(regular_goal({method, regular}).verdict(), Verdict::Missed);
+}
+
+TEST(DrawingGoals, AFrameIsHeldToAFifthAboveItsFloor) {
+    const std::array near{TurnFrame{.cpu_ms = 119.0, .floor_cpu_ms = 100.0}};
+    const std::array far{TurnFrame{.cpu_ms = 121.0, .floor_cpu_ms = 100.0}};
+    EXPECT_EQ(floor_goal(near).verdict(), Verdict::Met);
+    EXPECT_EQ(floor_goal(far).verdict(), Verdict::Missed);
+}
+
+TEST(DrawingGoals, MorphIsHeldToTwoPercentAndEightBytes) {
+    const std::array without{TurnFrame{.cpu_ms = 100.0}}, with{TurnFrame{.cpu_ms = 103.0}};
+    const auto lines = morph_goals({without, with});
+    EXPECT_NEAR(*lines[0].figure, 3.0, 1e-9);
+    EXPECT_EQ(lines[0].verdict(), Verdict::Missed);
+    EXPECT_EQ(lines[1].verdict(), Verdict::Met);
+}
+
+}  // namespace
+}  // namespace eyepoint::tools
