@@ -56,8 +56,8 @@ int difference(const ig::Picture& a, const ig::Picture& b, int x, int y) {
 }
 
 /// The noise is taken from the nearest of its smaller copies; where a pixel's size on the ground is between
-/// two, the last bit decides. Both ways know that size, one of them to a 1536th of an octave.
-constexpr double kUndecidedShare = 0.001;
+/// two, the last bit decides. Shading after raster knows places to a 32768th of a tile.
+constexpr double kUndecidedShare = 0.002;
 
 class ShadingPicture : public ::testing::TestWithParam<Scenery> {
   protected:

@@ -49,8 +49,7 @@ int first_row(const ig::Picture& picture) {
 
 class SpikeProof : public ::testing::TestWithParam<FromCorner> {};
 
-// Known: next to a tile's edge the spike is lost (docs/lod.md, "What is not proven").
-TEST_P(SpikeProof, DISABLED_StandsAtFullHeight) {
+TEST_P(SpikeProof, StandsAtFullHeight) {
     const Spike spike{place_of(GetParam()), kDepth, 1, 1};
     ScratchFolder scratch;
     ig::SceneOptions options;
