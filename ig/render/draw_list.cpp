@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "terrain/lod/error_level.hpp"
+#include "terrain/lod/painted_detail.hpp"
 
 namespace eyepoint::ig {
 
@@ -20,9 +21,7 @@ constexpr double kMetresPerDegree = 111320.0;
 /// Fields of BlockRecord::tree, as in block.glsl.
 constexpr std::uint32_t kQuadrantShift = 8;
 constexpr std::uint32_t kHasFloors = 1U << 16;
-constexpr std::uint32_t kDepthShift = 24;
-/// In place of the depth, where a tile gives way to its parent by shape alone.
-constexpr std::uint32_t kByShapeAlone = 255;
+constexpr std::uint32_t kReliefShift = 24;
 
 double fraction(double value) { return value - std::floor(value); }
 
@@ -110,10 +109,11 @@ std::uint32_t DrawList::place(const terrain::TileNode& node, std::uint64_t frame
     placed_in_frame_[slot] = frame;
     const std::uint32_t parent = node.parent != nullptr ? place(*node.parent, frame) + 1 : kNoSlot;
     const std::uint32_t quadrant = static_cast<std::uint32_t>(terrain::quadrant(node.tile));
-    const std::uint32_t depth =
-        node.parent != nullptr && terrain::is_polar(node.parent->tile) ? kByShapeAlone : node.tile.depth;
-    records_[slot].tree = {parent, node.block->last_level | quadrant << kQuadrantShift | depth << kDepthShift,
-                           0U, 0U};
+    const std::uint32_t last_level = node.block->last_level,
+                        relief_level = node.parent != nullptr ? terrain::relief_level(node.parent->tile) : 0U;
+    records_[slot].tree = {
+        parent, last_level | quadrant << kQuadrantShift | std::max(last_level, relief_level) << kReliefShift,
+        0U, 0U};
     return slot;
 }
 

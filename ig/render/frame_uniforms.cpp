@@ -8,7 +8,6 @@
 #include "terrain/block/block.hpp"
 #include "terrain/geodesy/earth.hpp"
 #include "terrain/lod/error_level.hpp"
-#include "terrain/lod/painted_detail.hpp"
 
 namespace eyepoint::ig {
 
@@ -63,11 +62,6 @@ glm::dvec3 sunlight(double height_m, double sun_cosine, double haze, double shar
     return kSunAboveTheAir * glm::exp(-share * depth) * risen * risen * (3.0 - 2.0 * risen);
 }
 
-/// By the depth of a child, 0: a parent has the depth before.
-double parents_relief_level(const View& view, const SceneOptions& options, double level_scale) {
-    return 2.0 + terrain::coarsest_relief_level(view.pixels_per_radian(), options.slack, level_scale);
-}
-
 }  // namespace
 
 glm::dmat4 clip_from_relative(const View& view) {
@@ -107,8 +101,7 @@ FrameUniforms frame_uniforms(const View& view, const SceneOptions& options) {
         .ray_corner = padded(corner, view.near_m),
         .ray_right = padded(view.axes[0] * (view.right - view.left)),
         .ray_up = padded(view.axes[1] * (view.top - view.bottom)),
-        .motion = padded(glm::dvec3{level_scale * level_scale, options.morph ? 1.0 : 0.0,
-                                    parents_relief_level(view, options, level_scale)}),
+        .motion = padded(glm::dvec3{level_scale * level_scale, options.morph ? 1.0 : 0.0, 0.0}),
     };
 }
 

@@ -56,14 +56,8 @@ const double kReachRow = 1.0 / (1.0 - std::sqrt(0.5));
 /// row that ends at the level asked for there. Half a level more for the slide that has begun.
 double slide_share(double scale) { return kReachRow * kLevelReachM * scale * std::exp2(0.25); }
 
-/// Side of a texel of what is painted on a tile, metres, where a child has it finer; posts of its relief
-/// count as texels that may be so much larger. Not at a pole, where thousands of narrow tiles meet. -infinity
-/// for none.
-double texel_to_refine_m(const TileNode& node) {
-    const double picture_m = node.texel_to_refine_m > 0.0 ? node.texel_to_refine_m : -kInfinity;
-    if (!node.info.has_children || is_polar(node.tile)) return picture_m;
-    return std::max(picture_m, post_spacing_m(node.tile.depth) * kMostPixelsATexel / kMostPixelsAPost);
-}
+/// Of a level, in the tables of distances: level 0 is right anywhere.
+std::uint8_t row_of(std::size_t level) { return static_cast<std::uint8_t>(level == 0 ? kLevels : level); }
 
 /// No point of the Earth nearer than this is behind its curve.
 double nearest_hidden_m(const Ecef& eye, double lowest_m) {
@@ -218,7 +212,10 @@ std::int32_t NestedLod::add(TileNode* nodes, std::uint32_t count) {
             for (int i = 0; i < 3; ++i)
                 quad.half_m[static_cast<std::size_t>(axis * 3 + i)][lane] = static_cast<float>(half_m[i]);
         }
-        quad.texel_m[lane] = texel_to_refine_m(node);
+        quad.texel_m[lane] = node.texel_to_refine_m > 0.0 ? node.texel_to_refine_m : -kInfinity;
+        quad.split_until[lane] = node.info.has_children
+                                     ? std::max(node.info.first_level, relief_level(node.tile))
+                                     : node.info.first_level;
     }
     quads_.push_back(quad);
     return static_cast<std::int32_t>(quads_.size()) - 1;
@@ -282,7 +279,8 @@ void NestedLod::choose(std::int32_t index, std::size_t lane, const Frame& frame)
     const double distance = distance_m(node.bounds, frame.view.eye);
     const double level = level_at(distance, frame.scale) - kLevelMargin;
     const int first = node.info.first_level, last = node.info.last_level;
-    const bool fine = first == 0 || level >= first;
+    const std::uint8_t split_until = quads_[static_cast<std::size_t>(index)].split_until[lane];
+    const bool fine = split_until == 0 || level >= split_until;
     const bool sharp =
         distance >= frame.metres_a_texel * quads_[static_cast<std::size_t>(index)].texel_m[lane];
     const bool split = !fine || !sharp;
@@ -301,10 +299,10 @@ void NestedLod::choose(std::int32_t index, std::size_t lane, const Frame& frame)
     quad.split[lane] = split;
     quad.near_m[lane] = distance + frame.odometer_m;
     quad.far_m[lane] = distance - frame.odometer_m;
-    quad.nearest[lane] = static_cast<std::uint8_t>(list == 0 ? kAlways : static_cast<std::size_t>(list));
-    const std::size_t split_until = first == 0 ? kAlways : static_cast<std::size_t>(first);
+    const std::size_t drawn_from = std::max(static_cast<std::size_t>(list), std::size_t{split_until});
     const std::size_t drawn_until = list == last ? kNever : static_cast<std::size_t>(list) + 1;
-    quad.farthest[lane] = static_cast<std::uint8_t>(split ? split_until : drawn_until);
+    quad.nearest[lane] = row_of(drawn_from);
+    quad.farthest[lane] = split ? row_of(split_until) : static_cast<std::uint8_t>(drawn_until);
 }
 
 /// What a tile's choice asks for: its children, or itself.
@@ -332,14 +330,14 @@ void NestedLod::draw(const Pending& pending, const Frame& frame) {
     selection_.triangles += quad.range[lane].count / 3;
 }
 
-/// For the children of a tile that had to be drawn in their place; sooner the more levels it lacks, in shape
-/// or picture.
+/// For the children of a tile that had to be drawn in their place; sooner the more levels it lacks, in shape,
+/// relief or picture.
 void NestedLod::wish(const Quad& quad, std::size_t lane, const Frame& frame) {
     if (quad.children[lane] == kNone) return;
     const double nearest_m = std::max(distance_m(quad.nodes[lane].bounds, frame.view.eye), frame.view.near_m);
-    const double shape_levels = quad.nodes[lane].info.first_level - level_at(nearest_m, frame.scale);
+    const double levels = quad.split_until[lane] - level_at(nearest_m, frame.scale);
     const double picture_m = frame.metres_a_texel * std::max(quad.texel_m[lane], 0.0);
-    const double priority = std::max(shape_levels, 2.0 * std::log2(picture_m / nearest_m));
+    const double priority = std::max(levels, 2.0 * std::log2(picture_m / nearest_m));
     Quad& children = quads_[static_cast<std::size_t>(quad.children[lane])];
     for (std::size_t i = 0; i < children.count; ++i) {
         TileNode& node = children.nodes[i];

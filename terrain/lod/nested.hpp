@@ -51,12 +51,13 @@ class NestedLod final : public LodMethod {
         std::array<std::array<float, 4>, 9> half_m{};  ///< half sides: three vectors, by component
         std::array<double, 4> near_m{};                ///< distance at the choice + odometer then
         std::array<double, 4> far_m{};                 ///< distance at the choice - odometer then
-        std::array<double, 4> slide_within_m{};  ///< what vertices may slide up to the tile's last level
-        std::array<double, 4> texel_m{};         ///< of what is painted; -infinity for none finer below
-        std::array<IndexRange, 4> range{};       ///< of the list chosen
-        std::array<std::uint8_t, 4> level{};     ///< of the list chosen
-        std::array<std::uint8_t, 4> nearest{};   ///< row of `nearer_m`: nearer than that, choose anew
-        std::array<std::uint8_t, 4> farthest{};  ///< row of `farther_m`
+        std::array<double, 4> slide_within_m{};     ///< what vertices may slide up to the tile's last level
+        std::array<double, 4> texel_m{};            ///< of its picture; -infinity for none finer below
+        std::array<std::uint8_t, 4> split_until{};  ///< the level from which on it will do
+        std::array<IndexRange, 4> range{};          ///< of the list chosen
+        std::array<std::uint8_t, 4> level{};        ///< of the list chosen
+        std::array<std::uint8_t, 4> nearest{};      ///< row of `nearer_m`: nearer than that, choose anew
+        std::array<std::uint8_t, 4> farthest{};     ///< row of `farther_m`
         std::array<bool, 4> chosen{};
         std::array<bool, 4> split{};
         std::array<std::int32_t, 4> children{kNone, kNone, kNone, kNone};

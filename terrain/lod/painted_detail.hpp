@@ -4,27 +4,26 @@
 #include <cmath>
 #include <cstdint>
 
+#include "terrain/lod/error_level.hpp"
 #include "terrain/tiling/tile_id.hpp"
 
 namespace eyepoint::terrain {
 
 /// A texel of a tile's picture may cover so many pixels.
 inline constexpr double kMostPixelsATexel = 2.0;
-/// The posts of a tile's relief (terrain/block/relief.hpp) may be so many pixels apart; they are
-/// interpolated. Where the ground is rough, tiles give way to their children for their shape long before.
-inline constexpr double kMostPixelsAPost = 8.0;
+/// The posts of a tile's relief (terrain/block/relief.hpp) may be so many times the tolerance apart, as seen
+/// along the meridian; they are interpolated. Where the ground is rough, tiles give way to their children for
+/// their shape long before.
+inline constexpr double kMostTolerancesAPost = 16.0;
 
-/// Distance of a tile's posts, metres on the ground, along the meridian.
-[[nodiscard]] inline double post_spacing_m(std::uint32_t depth) {
+/// The level asked for (error_level.hpp, level_at) from which on the relief of a tile that has children is
+/// fine enough. A multiple of the tolerance and not of a pixel: so it is a level, like the tile's first, and
+/// a greater tolerance saves triangles in flat country, too. 0 at a pole, where thousands of narrow tiles
+/// meet.
+[[nodiscard]] inline std::uint8_t relief_level(TileId tile) {
     constexpr double kMetresPerDegree = 111320.0;
-    return post_spacing_deg(depth) * kMetresPerDegree;
-}
-
-/// The level asked for (error_level.hpp, level_at) from which on the relief of a tile of depth 0 is fine
-/// enough; two levels less for each depth. slack: s / tau; a choice once made stands until posts are so much
-/// farther apart.
-[[nodiscard]] inline double coarsest_relief_level(double kappa_px, double slack, double scale) {
-    return 2.0 * std::log2(kappa_px * post_spacing_m(0) / (kMostPixelsAPost * (1.0 + slack)) * scale);
+    if (is_polar(tile)) return 0;
+    return level_of_error(post_spacing_deg(tile.depth) * kMetresPerDegree / kMostTolerancesAPost);
 }
 
 }  // namespace eyepoint::terrain

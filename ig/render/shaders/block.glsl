@@ -8,9 +8,9 @@ struct BlockRecord {
     vec4 image;  // layer (negative: none), scale and offset of the picture's coordinates
     vec4 noise;  // scale and offset of the noise's coordinates; w: metres a texel of the picture
     vec4 relief; // slot of the block whose relief is painted, scale and offset of places in it (relief.glsl)
-    // Parent's slot + 1, 0: none; last level, quadrant << 8, floors << 16, depth << 24 (relief.glsl); the floors of the
-    // edges' halves, a byte each. All zeros has no parent: llvmpipe reads zeros here in the lanes that fill up a vector
-    // of vertices.
+    // Parent's slot + 1, 0: none; last level, quadrant << 8, floors << 16, level at which its relief has become the
+    // parent's << 24 (relief.glsl); the floors of the edges' halves, a byte each. All zeros has no parent: llvmpipe reads
+    // zeros here in the lanes that fill up a vector of vertices.
     uvec4 tree;
 };
 layout(std430, binding = 0) readonly buffer Blocks { BlockRecord blocks[]; };

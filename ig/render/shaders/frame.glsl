@@ -11,6 +11,5 @@ layout(std140, binding = 0) uniform Frame {
     vec4 ray_corner;          // direction to the lower left corner of the picture, 1 along the view's axis; w: nearest distance
     vec4 ray_right;           // from there to the lower right corner
     vec4 ray_up;              // and to the upper left
-    vec4 motion;              // nested meshes: squared scale of levels (error_level.hpp); 1: vertices slide, 0: they jump;
-                              // level from which on the relief of the parent of a tile of depth 0 would do
+    vec4 motion;              // nested meshes: squared scale of levels (error_level.hpp); 1: vertices slide, 0: they jump
 };

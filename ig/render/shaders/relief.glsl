@@ -27,7 +27,7 @@ const int kMostDepths = 26;
 
 // Where nested meshes choose blocks, a tile gives way to its parent without a change of shape. Nor does the relief
 // change: from one level before a tile's last on, it turns into the parent's. The last is that of the mesh or, if it is
-// more, that of the distance from which on the parent's posts lie close enough together in the picture.
+// more, that from which on the parent's relief is fine enough (painted_detail.hpp).
 vec3 relief_at(int slot, vec2 place, vec3 relative) {
     vec4 painted = record_floats(slot, 2);
     slot = int(painted.x);
@@ -38,7 +38,7 @@ vec3 relief_at(int slot, vec2 place, vec3 relative) {
     float left = 1.0;
     for (int depths = 0; depths < kMostDepths; ++depths) {
         uvec4 tree = texelFetch(records, slot * 4 + 3);
-        float last = max(float(tree.y & 0xffu), motion.z - 2.0 * float(tree.y >> 24));
+        float last = float(tree.y >> 24);
         float to_parent = tree.x == 0u ? 0.0 : clamp(level - (last - 1.0), 0.0, 1.0);
         sum += left * (1.0 - to_parent) * block_relief(slot, place);
         left *= to_parent;
