@@ -234,6 +234,20 @@ Side side_between(const Corner& from, const Corner& to) {
 
 }  // namespace
 
+namespace {
+
+/// As std::floor and std::ceil of what an int can hold, without a call.
+int floor_of(double value) {
+    const auto whole = static_cast<int>(value);
+    return whole > value ? whole - 1 : whole;
+}
+int ceiling_of(double value) {
+    const auto whole = static_cast<int>(value);
+    return whole < value ? whole + 1 : whole;
+}
+
+}  // namespace
+
 template <int kParts>
 float SampledSurface::greatest(const Corner& a, const Corner& b, const Corner& c, float enough_m) const {
     constexpr double kRounding = 1e-7;  // samples on the sides count
@@ -249,9 +263,8 @@ float SampledSurface::greatest(const Corner& a, const Corner& b, const Corner& c
         py[part] = static_cast<float>(by_y);
         p0[part] = a.position_m[part];
     }
-    const int south = std::max(0, static_cast<int>(std::ceil(std::min({a.y, b.y, c.y}) - kRounding)));
-    const int north =
-        std::min(side_ - 1, static_cast<int>(std::floor(std::max({a.y, b.y, c.y}) + kRounding)));
+    const int south = std::max(0, ceiling_of((std::min({a.y, b.y, c.y}) - kRounding)));
+    const int north = std::min(side_ - 1, floor_of((std::max({a.y, b.y, c.y}) + kRounding)));
     const std::array<Side, 3> sides{side_between(a, b), side_between(b, c), side_between(c, a)};
     float greatest = 0.0F;
     for (int row = south; row <= north; ++row) {
@@ -266,8 +279,8 @@ float SampledSurface::greatest(const Corner& a, const Corner& b, const Corner& c
                 east = std::max(east, side.east);
             }
         }
-        const int first = std::max(0, static_cast<int>(std::ceil(west - kRounding)));
-        const int last = std::min(side_ - 1, static_cast<int>(std::floor(east + kRounding)));
+        const int first = std::max(0, ceiling_of((west - kRounding)));
+        const int last = std::min(side_ - 1, floor_of((east + kRounding)));
         const std::size_t line = static_cast<std::size_t>(row) * static_cast<std::size_t>(side_);
         const auto up = static_cast<float>(row - a.y);
         for (int column = first; column <= last; ++column) {
