@@ -121,6 +121,7 @@ std::array<float, 2> widest_spacing_m(const GeographicExtent& sides, double spac
 
 SampledSurface::SampledSurface(TileId tile, const HeightSamples& samples)
     : side_(samples.side), flat_(tile.depth >= kFlatDepth), between_m_(samples.between_m) {
+    all_are_samples_ = std::all_of(between_m_.begin(), between_m_.end(), [](float m) { return m == 0.0F; });
     const GeographicExtent sides = extent(tile);
     const double latitude_deg = (sides.south_deg + sides.north_deg) / 2.0;
     const double longitude_deg = (sides.west_deg + sides.east_deg) / 2.0;
@@ -283,21 +284,24 @@ float SampledSurface::greatest(const Corner& a, const Corner& b, const Corner& c
         const int last = std::min(side_ - 1, floor_of((east + kRounding)));
         const std::size_t line = static_cast<std::size_t>(row) * static_cast<std::size_t>(side_);
         const auto up = static_cast<float>(row - a.y);
-        for (int column = first; column <= last; ++column) {
+        const auto square_at = [&](int column) {
             const std::size_t at = line + static_cast<std::size_t>(column);
             const auto along = static_cast<float>(column - a.x);
-            float distance_m = 0.0F;
-            if constexpr (kParts == 1) {
-                distance_m = std::abs(p0[0] + along * px[0] + up * py[0] - positions_m_[0][at]);
-            } else {
-                float square = 0.0F;
-                for (std::size_t part = 0; part < kParts; ++part) {
-                    const float apart = p0[part] + along * px[part] + up * py[part] - positions_m_[part][at];
-                    square += apart * apart;
-                }
-                distance_m = std::sqrt(square);
+            float square = 0.0F;
+            for (std::size_t part = 0; part < kParts; ++part) {
+                const float apart = p0[part] + along * px[part] + up * py[part] - positions_m_[part][at];
+                square += apart * apart;
             }
-            greatest = std::max(greatest, distance_m + between_m_[at]);
+            return square;
+        };
+        if (all_are_samples_) {
+            float square = 0.0F;
+            for (int column = first; column <= last; ++column) square = std::max(square, square_at(column));
+            greatest = std::max(greatest, std::sqrt(square));
+        } else {
+            for (int column = first; column <= last; ++column)
+                greatest = std::max(greatest, std::sqrt(square_at(column)) +
+                                                  between_m_[line + static_cast<std::size_t>(column)]);
         }
         if (greatest > enough_m) return greatest;
     }
