@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 #include "ig/egl_context.hpp"
@@ -14,11 +15,7 @@ namespace eyepoint::tools {
 
 namespace {
 
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
+constexpr double kNotYet = std::numeric_limits<double>::infinity();
 
 template <typename Draw>
 double cpu_ms_of(const Draw& draw) {
@@ -54,33 +51,37 @@ class Turns {
     [[nodiscard]] std::vector<TurnFrame> draw(const ig::View& view) {
         std::vector<TurnFrame> frames(scenes_.size());
         for (std::size_t i = 0; i < scenes_.size(); ++i) frames[i] = prepare(i, view);
-        std::vector<std::vector<double>> cpu_ms(scenes_.size()), selection_ms(scenes_.size());
-        std::vector<double> floor_ms;
         for (std::size_t turn = 0; turn < options_.turns; ++turn) {
             for (std::size_t place = 0; place < scenes_.size(); ++place) {
                 const std::size_t i = (place + turn) % scenes_.size();
-                frame_buffer_.bind();
-                cpu_ms[i].push_back(
-                    cpu_ms_of([&] { selection_ms[i].push_back(scenes_[i]->draw(view).selection_cpu_ms); }));
-                if (i == 0 && options_.floor)
-                    floor_ms.push_back(cpu_ms_of([&] { scenes_[i]->draw_floor(view); }));
+                draw_timed(i, view, frames[i]);
             }
         }
-        for (std::size_t i = 0; i < scenes_.size(); ++i) {
-            frames[i].cpu_ms = median(std::move(cpu_ms[i]));
-            frames[i].selection_ms = median(std::move(selection_ms[i]));
-        }
-        if (options_.floor) frames.front().floor_cpu_ms = median(std::move(floor_ms));
         return frames;
     }
 
   private:
+    void draw_timed(std::size_t i, const ig::View& view, TurnFrame& frame) {
+        frame_buffer_.bind();
+        double selection_ms = 0.0;
+        const double cpu_ms = cpu_ms_of([&] { selection_ms = scenes_[i]->draw(view).selection_cpu_ms; });
+        frame.cpu_ms = std::min(frame.cpu_ms, cpu_ms);
+        frame.selection_ms = std::min(frame.selection_ms, selection_ms);
+        if (i == 0 && options_.floor) {
+            const double floor_ms = cpu_ms_of([&] { scenes_[i]->draw_floor(view); });
+            frame.floor_cpu_ms = std::min(frame.floor_cpu_ms.value_or(floor_ms), floor_ms);
+        }
+    }
+
     /// Loads, uploads, and draws once; counts and picture are of this.
     TurnFrame prepare(std::size_t i, const ig::View& view) {
         scenes_[i]->load_all(view);
         frame_buffer_.bind();
         const ig::FrameStatistics drawn = scenes_[i]->draw(view);
-        TurnFrame frame{.triangles = drawn.triangles, .triangles_hidden = drawn.triangles_hidden};
+        TurnFrame frame{.cpu_ms = kNotYet,
+                        .selection_ms = kNotYet,
+                        .triangles = drawn.triangles,
+                        .triangles_hidden = drawn.triangles_hidden};
         if (options_.pictures) {
             frame_buffer_.read(i == 0 ? first_picture_ : picture_);
             if (i > 0) frame.pixels_changed = pixels_that_differ(first_picture_, picture_);

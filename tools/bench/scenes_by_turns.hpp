@@ -16,7 +16,8 @@
 
 namespace eyepoint::tools {
 
-/// One eye, drawn by one scene. CPU is of all threads of the process, milliseconds, the median of the turns.
+/// One eye, drawn by one scene. CPU is of all threads of the process, milliseconds, the least of the
+/// turns: what other programs do beside, on shared cores and caches, only adds to it.
 struct TurnFrame {
     double cpu_ms = 0.0;
     double selection_ms = 0.0;             ///< of it: selection, by the thread's clock
@@ -27,7 +28,7 @@ struct TurnFrame {
 };
 
 struct TurnOptions {
-    std::size_t turns = 5;  ///< that each scene draws an eye, after once that does not count
+    std::size_t turns = 7;  ///< that each scene draws an eye, after once that does not count
     bool floor = false;     ///< of the first scene
     bool pictures = false;  ///< compare them
 };

@@ -10,6 +10,7 @@
 #include "terrain/block/block.hpp"
 #include "terrain/database/database.hpp"
 #include "terrain/lod/error_level.hpp"
+#include "tools/terrain/nest/triangle_errors.hpp"
 
 namespace eyepoint::tools {
 
@@ -60,6 +61,7 @@ class Collapse {
         result_.gone_level.assign(vertices, NestedMesh::kStays);
         result_.target.assign(vertices, 0);
         for (const MeshVertex& vertex : request.mesh.vertices) places_.push_back(placed(vertex));
+        for (const Placed& place : places_) is_corner_.push_back(is_tile_corner(place));
         for (const EdgeFate& fate : request.fates) {
             auto& steps = later_places_.emplace_back();
             for (const EdgeFate::Step& step : fate.steps) steps.push_back({step.level, placed(step.place)});
@@ -145,7 +147,7 @@ class Collapse {
         for (std::size_t i = 0; i < later_places_.size(); ++i) {
             const auto v = static_cast<Vertex>(i);
             if (!later_places_[v].empty() && later_places_[v].front().level <= level_ && !gone(v) &&
-                !is_corner(v))
+                !is_corner_[v])
                 due.push_back(v);
         }
         std::stable_sort(due.begin(), due.end(), [&](Vertex a, Vertex b) {
@@ -292,66 +294,113 @@ class Collapse {
         if (best.target != v) queue_.push(best);
     }
 
+    /// A neighbour that a vertex may go to, and what the sides of the triangles left would cost alone.
+    struct Way {
+        float by_size_m;
+        std::size_t number;  ///< among the neighbours: the first of equals is taken
+        Vertex target;
+        bool operator<(const Way& other) const {
+            return std::tie(by_size_m, number) < std::tie(other.by_size_m, other.number);
+        }
+    };
+
     /// Itself when there is none within the error. New triangles at `excepted` need not outlast the edges'
-    /// collapses.
-    [[nodiscard]] Candidate best_target(Vertex v, float most_m, Vertex excepted) const {
+    /// collapses. Ways are tried by the least they can cost, so that most need not be.
+    [[nodiscard]] Candidate best_target(Vertex v, float most_m, Vertex excepted) {
         Candidate best{most_m, v, v, version_[v]};
-        for (const Vertex target : ring(v)) {
-            const auto& later = later_places_[target];
+        const auto neighbours = ring(v);
+        ways_.clear();
+        for (std::size_t i = 0; i < neighbours.size(); ++i) {
+            const auto& later = later_places_[neighbours[i]];
             if (!later.empty() && later.front().level <= edges_done_) continue;
-            const float error_m = error_after(v, target, best.error_m, excepted);
-            if (error_m < best.error_m || (best.target == v && error_m <= best.error_m && error_m < kNever)) {
+            const float by_size_m = size_cost_m(v, neighbours[i]);
+            if (by_size_m <= most_m && by_size_m < kNever) ways_.push_back({by_size_m, i, neighbours[i]});
+        }
+        std::sort(ways_.begin(), ways_.end());
+        std::size_t best_number = neighbours.size();
+        for (const Way& way : ways_) {
+            if (std::tie(way.by_size_m, way.number) > std::tie(best.error_m, best_number)) break;
+            const float error_m = error_after(v, way, best.error_m, excepted);
+            if (error_m < kNever && std::tie(error_m, way.number) < std::tie(best.error_m, best_number)) {
                 best.error_m = error_m;
-                best.target = target;
+                best.target = way.target;
+                best_number = way.number;
             }
         }
         return best;
     }
 
-    /// Greatest error of the triangles that a collapse would leave around the vertex; kNever when it must not
-    /// be.
-    [[nodiscard]] float error_after(Vertex v, Vertex target, float enough_m, Vertex excepted) const {
-        float greatest_m = 0.0F;
-        std::array<std::array<const Placed*, 3>, kMostAround> left{};
+    /// The corners of a triangle when a vertex has gone to a target.
+    [[nodiscard]] std::array<const Placed*, 3> corners_after(const Triangle& triangle, Vertex v,
+                                                             Vertex target) const {
+        std::array<const Placed*, 3> corners{};
+        for (std::size_t i = 0; i < 3; ++i) corners[i] = &here(triangle[i] == v ? target : triangle[i]);
+        return corners;
+    }
+
+    [[nodiscard]] static bool has(const Triangle& triangle, Vertex v) {
+        return triangle[0] == v || triangle[1] == v || triangle[2] == v;
+    }
+
+    /// The error of the level from which the longest side that a collapse would leave around the vertex may
+    /// be; kNever when it would fold a triangle.
+    [[nodiscard]] float size_cost_m(Vertex v, Vertex target) const {
+        constexpr auto kErrorASide = static_cast<float>(kMeshShare * kFinestErrorM / kLevelReachM);
+        float longest_m = 0.0F;
         std::size_t count = 0;
         for (const std::uint32_t t : around_[v]) {
-            const Triangle& triangle = triangles_[t];
-            if (std::find(triangle.begin(), triangle.end(), target) != triangle.end()) continue;
-            if (count == kMostAround) return kNever;
-            auto& corners = left[count++];
-            for (std::size_t i = 0; i < 3; ++i) corners[i] = &here(triangle[i] == v ? target : triangle[i]);
+            if (has(triangles_[t], target)) continue;
+            if (count++ == kMostAround) return kNever;
+            const auto corners = corners_after(triangles_[t], v, target);
             if (is_empty(corners)) continue;
-            if (!counterclockwise(*corners[0], *corners[1], *corners[2])) return kNever;
+            const auto& [a, b, c] = corners;
+            if (!counterclockwise(*a, *b, *c)) return kNever;
+            longest_m =
+                std::max({longest_m, surface_.side_m(a->corner, b->corner),
+                          surface_.side_m(b->corner, c->corner), surface_.side_m(c->corner, a->corner)});
         }
-        for (std::size_t i = 0; i < count; ++i) {
-            if (is_empty(left[i])) continue;
-            const float error_m =
-                cost_m(left[i][0]->corner, left[i][1]->corner, left[i][2]->corner, enough_m);
+        return kErrorASide * longest_m;
+    }
+
+    /// Greatest error of the triangles that a collapse would leave around the vertex, or what their sides
+    /// cost if that is more; kNever when it must not be, or when it is more than `enough_m`.
+    [[nodiscard]] float error_after(Vertex v, const Way& way, float enough_m, Vertex excepted) {
+        float greatest_m = way.by_size_m;
+        for (const std::uint32_t t : around_[v]) {
+            if (has(triangles_[t], way.target)) continue;
+            const float error_m = error_after(triangles_[t], v, way.target, enough_m);
             if (error_m > enough_m) return kNever;
             greatest_m = std::max(greatest_m, error_m);
         }
         for (const std::uint32_t t : around_[v]) {
             Triangle triangle = triangles_[t];
-            if (std::find(triangle.begin(), triangle.end(), target) != triangle.end()) continue;
-            std::replace(triangle.begin(), triangle.end(), v, target);
-            const bool is_excepted =
-                excepted == kAll || std::find(triangle.begin(), triangle.end(), excepted) != triangle.end();
+            if (has(triangle, way.target)) continue;
+            std::replace(triangle.begin(), triangle.end(), v, way.target);
+            const bool is_excepted = excepted == kAll || has(triangle, excepted);
             if (!is_excepted && !outlasts_edges(triangle)) return kNever;
         }
         return greatest_m;
     }
 
-    /// A triangle's error, or the error of the level from which it may be so large, if that is more; a number
-    /// above `enough_m` when it is more than that.
-    [[nodiscard]] float cost_m(const Corner& a, const Corner& b, const Corner& c, float enough_m) const {
-        constexpr auto kErrorASide = static_cast<float>(kMeshShare * kFinestErrorM / kLevelReachM);
-        const float by_size_m =
-            kErrorASide * std::max({surface_.side_m(a, b), surface_.side_m(b, c), surface_.side_m(c, a)});
-        return by_size_m > enough_m ? by_size_m : std::max(by_size_m, surface_.error_m(a, b, c, enough_m));
+    /// Of one triangle; 0 for an empty one.
+    [[nodiscard]] float error_after(Triangle triangle, Vertex v, Vertex target, float enough_m) {
+        std::replace(triangle.begin(), triangle.end(), v, target);
+        const auto measure = [&](float most_m) {
+            const std::array<const Placed*, 3> corners{&here(triangle[0]), &here(triangle[1]),
+                                                       &here(triangle[2])};
+            if (is_empty(corners)) return 0.0F;
+            return surface_.error_m(corners[0]->corner, corners[1]->corner, corners[2]->corner, most_m);
+        };
+        const bool moves =
+            std::any_of(triangle.begin(), triangle.end(), [&](Vertex corner) { return is_corner_[corner]; });
+        return moves ? measure(enough_m) : errors_.find(triangle, enough_m, measure);
     }
 
     /// Whether a triangle stays unfolded and within its level's error whenever the edges' vertices go on.
     [[nodiscard]] bool outlasts_edges(const Triangle& triangle) const {
+        if (later_places_[triangle[0]].empty() && later_places_[triangle[1]].empty() &&
+            later_places_[triangle[2]].empty())
+            return true;
         int level = edges_done_;
         while (true) {
             int next = std::numeric_limits<int>::max();
@@ -376,12 +425,12 @@ class Collapse {
     /// Where a vertex that is still in the mesh is at this level: only corners of the tile may have slid
     /// away.
     [[nodiscard]] const Placed& here(Vertex v) const {
-        return is_corner(v) ? at_level(v, edges_done_) : places_[v];
+        return is_corner_[v] ? at_level(v, edges_done_) : places_[v];
     }
 
-    [[nodiscard]] bool is_corner(Vertex v) const {
+    [[nodiscard]] static bool is_tile_corner(const Placed& place) {
         const auto at_end = [](std::int64_t at) { return at == 0 || at == kPlaceUnits; };
-        return at_end(places_[v].x) && at_end(places_[v].y);
+        return at_end(place.x) && at_end(place.y);
     }
 
     [[nodiscard]] static bool is_empty(const std::array<const Placed*, 3>& corners) {
@@ -475,11 +524,14 @@ class Collapse {
     std::vector<std::size_t> first_before_;
     std::vector<std::vector<std::uint32_t>> around_;  ///< triangles, by vertex
     std::vector<Placed> places_;
+    std::vector<char> is_corner_;  ///< of the tile
     std::vector<std::vector<LaterPlace>> later_places_;
     std::vector<std::uint32_t> version_;
     std::vector<float> last_error_m_;  ///< by vertex: of its best collapse when it was last weighed
     std::vector<int> used_as_target_;  ///< the level at which
     std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> queue_;
+    TriangleErrors errors_;
+    std::vector<Way> ways_;
     CollapseResult result_;
 };
 

@@ -121,6 +121,7 @@ std::array<float, 2> widest_spacing_m(const GeographicExtent& sides, double spac
 
 SampledSurface::SampledSurface(TileId tile, const HeightSamples& samples)
     : side_(samples.side), flat_(tile.depth >= kFlatDepth), between_m_(samples.between_m) {
+    all_are_samples_ = std::all_of(between_m_.begin(), between_m_.end(), [](float m) { return m == 0.0F; });
     const GeographicExtent sides = extent(tile);
     const double latitude_deg = (sides.south_deg + sides.north_deg) / 2.0;
     const double longitude_deg = (sides.west_deg + sides.east_deg) / 2.0;
@@ -234,6 +235,20 @@ Side side_between(const Corner& from, const Corner& to) {
 
 }  // namespace
 
+namespace {
+
+/// As std::floor and std::ceil of what an int can hold, without a call.
+int floor_of(double value) {
+    const auto whole = static_cast<int>(value);
+    return whole > value ? whole - 1 : whole;
+}
+int ceiling_of(double value) {
+    const auto whole = static_cast<int>(value);
+    return whole < value ? whole + 1 : whole;
+}
+
+}  // namespace
+
 template <int kParts>
 float SampledSurface::greatest(const Corner& a, const Corner& b, const Corner& c, float enough_m) const {
     constexpr double kRounding = 1e-7;  // samples on the sides count
@@ -249,9 +264,8 @@ float SampledSurface::greatest(const Corner& a, const Corner& b, const Corner& c
         py[part] = static_cast<float>(by_y);
         p0[part] = a.position_m[part];
     }
-    const int south = std::max(0, static_cast<int>(std::ceil(std::min({a.y, b.y, c.y}) - kRounding)));
-    const int north =
-        std::min(side_ - 1, static_cast<int>(std::floor(std::max({a.y, b.y, c.y}) + kRounding)));
+    const int south = std::max(0, ceiling_of((std::min({a.y, b.y, c.y}) - kRounding)));
+    const int north = std::min(side_ - 1, floor_of((std::max({a.y, b.y, c.y}) + kRounding)));
     const std::array<Side, 3> sides{side_between(a, b), side_between(b, c), side_between(c, a)};
     float greatest = 0.0F;
     for (int row = south; row <= north; ++row) {
@@ -266,25 +280,28 @@ float SampledSurface::greatest(const Corner& a, const Corner& b, const Corner& c
                 east = std::max(east, side.east);
             }
         }
-        const int first = std::max(0, static_cast<int>(std::ceil(west - kRounding)));
-        const int last = std::min(side_ - 1, static_cast<int>(std::floor(east + kRounding)));
+        const int first = std::max(0, ceiling_of((west - kRounding)));
+        const int last = std::min(side_ - 1, floor_of((east + kRounding)));
         const std::size_t line = static_cast<std::size_t>(row) * static_cast<std::size_t>(side_);
         const auto up = static_cast<float>(row - a.y);
-        for (int column = first; column <= last; ++column) {
+        const auto square_at = [&](int column) {
             const std::size_t at = line + static_cast<std::size_t>(column);
             const auto along = static_cast<float>(column - a.x);
-            float distance_m = 0.0F;
-            if constexpr (kParts == 1) {
-                distance_m = std::abs(p0[0] + along * px[0] + up * py[0] - positions_m_[0][at]);
-            } else {
-                float square = 0.0F;
-                for (std::size_t part = 0; part < kParts; ++part) {
-                    const float apart = p0[part] + along * px[part] + up * py[part] - positions_m_[part][at];
-                    square += apart * apart;
-                }
-                distance_m = std::sqrt(square);
+            float square = 0.0F;
+            for (std::size_t part = 0; part < kParts; ++part) {
+                const float apart = p0[part] + along * px[part] + up * py[part] - positions_m_[part][at];
+                square += apart * apart;
             }
-            greatest = std::max(greatest, distance_m + between_m_[at]);
+            return square;
+        };
+        if (all_are_samples_) {
+            float square = 0.0F;
+            for (int column = first; column <= last; ++column) square = std::max(square, square_at(column));
+            greatest = std::max(greatest, std::sqrt(square));
+        } else {
+            for (int column = first; column <= last; ++column)
+                greatest = std::max(greatest, std::sqrt(square_at(column)) +
+                                                  between_m_[line + static_cast<std::size_t>(column)]);
         }
         if (greatest > enough_m) return greatest;
     }

@@ -80,6 +80,7 @@ class SampledSurface {
     terrain::Ecef up_;
     std::array<std::vector<float>, 3> positions_m_;
     std::vector<float> between_m_;
+    bool all_are_samples_;  ///< between_m_ is 0
     /// Lone samples, by the row below them: those of row r from lone_rows_[r] to lone_rows_[r + 1].
     struct Lone {
         double x, y;
