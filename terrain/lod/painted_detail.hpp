@@ -14,7 +14,7 @@ inline constexpr double kMostPixelsATexel = 2.0;
 /// The posts of a tile's relief (terrain/block/relief.hpp) may be so many times the tolerance apart, as seen
 /// along the meridian; they are interpolated. Where the ground is rough, tiles give way to their children for
 /// their shape long before.
-inline constexpr double kMostTolerancesAPost = 16.0;
+inline constexpr double kMostTolerancesAPost = 32.0;
 
 /// The level asked for (error_level.hpp, level_at) from which on the relief of a tile that has children is
 /// fine enough. A multiple of the tolerance and not of a pixel: so it is a level, like the tile's first, and
