@@ -25,7 +25,7 @@ namespace eyepoint::tools {
 [[nodiscard]] GoalDone measure_hidden(GoalBench& bench, GoalReport& report);
 /// Pictures and frame CPU, on cruise and 700 m lower.
 [[nodiscard]] GoalDone measure_culled_frames(GoalBench& bench, GoalReport& report);
-/// Selection alone, looking down and from high above.
+/// Selection alone, looking straight down, and 45 degrees down from 5,000 m.
 [[nodiscard]] GoalDone measure_idle_culling(GoalBench& bench, GoalReport& report);
 
 }  // namespace eyepoint::tools

@@ -19,12 +19,13 @@ std::vector<ig::FlightEye> higher(std::vector<ig::FlightEye> eyes, double higher
     return eyes;
 }
 
-std::vector<ig::FlightEye> looking_down(std::vector<ig::FlightEye> eyes) {
-    constexpr double kDownRad = -1.5707963267948966;
+/// North, and so far down.
+std::vector<ig::FlightEye> looking_down(std::vector<ig::FlightEye> eyes, double down_deg) {
+    constexpr double kRadPerDeg = 0.017453292519943295;
     for (ig::FlightEye& eye : eyes) {
         const terrain::Geodetic& place = eye.eyepoint.place;
         const glm::dmat3 body =
-            terrain::body_axes(place.latitude_deg, place.longitude_deg, {0.0, kDownRad, 0.0});
+            terrain::body_axes(place.latitude_deg, place.longitude_deg, {0.0, -down_deg * kRadPerDeg, 0.0});
         eye.eyepoint.view.axes = {body[1], -body[2], -body[0]};
     }
     return eyes;
@@ -39,7 +40,7 @@ std::vector<ig::FlightEye> every_nth(const std::vector<ig::FlightEye>& eyes, std
 }
 
 tl::expected<GoalBench, std::string> GoalBench::open(GoalSettings settings) {
-    constexpr double kLowerM = 700.0, kHigherM = 19000.0;
+    constexpr double kLowerM = 700.0, kHigherM = 4000.0;
     auto field = terrain::Database::open(settings.terrain);
     if (!field) return tl::unexpected(field.error());
     auto cruise = read_eyes({.file = settings.paths / "cruise.csv", .size = kGoalPicture});
@@ -49,8 +50,8 @@ tl::expected<GoalBench, std::string> GoalBench::open(GoalSettings settings) {
     GoalPaths paths{.cruise = *cruise,
                     .sweep = *std::move(sweep),
                     .low_cruise = higher(*cruise, -kLowerM),
-                    .high_cruise = higher(*cruise, kHigherM),
-                    .down_cruise = looking_down(*cruise)};
+                    .high_cruise = looking_down(higher(*cruise, kHigherM), 45.0),
+                    .down_cruise = looking_down(*cruise, 90.0)};
     return GoalBench(std::move(settings), std::move(paths),
                      std::make_shared<const terrain::Database>(*std::move(field)));
 }

@@ -39,7 +39,7 @@ struct GoalPaths {
     std::vector<ig::FlightEye> cruise;
     std::vector<ig::FlightEye> sweep;
     std::vector<ig::FlightEye> low_cruise;   ///< cruise 700 m lower: 300 m above smoothed ground
-    std::vector<ig::FlightEye> high_cruise;  ///< 19 km higher: next to nothing hides anything
+    std::vector<ig::FlightEye> high_cruise;  ///< 5,000 m above smoothed ground, looking 45 degrees down
     std::vector<ig::FlightEye> down_cruise;  ///< cruise, looking straight down
 };
 
