@@ -71,7 +71,7 @@ start_eyepoint() {
     : >"$out/eyepoint.log"
     timeout --kill-after=10 $((start_limit_s + flight_limit_s)) "$bin/eyepoint" --terrain "$out/terrain" \
         --listen 127.0.0.1 --port 0 --end-after-silence 2 --record "$out/flight.jsonl" \
-        --fov 50 --tau 3 --set view.pitch_deg=-4 \
+        --fov 50 --set view.pitch_deg=-4 \
         "${output[@]}" >"$out/eyepoint.log" 2>&1 &
     eyepoint_pid=$!
     for ((tenths = 0; tenths < start_limit_s * 10; ++tenths)); do

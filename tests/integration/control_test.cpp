@@ -1,4 +1,5 @@
 /// Tolerance control in the running program.
+#include "config/settings.hpp"
 #include "tests/integration/run.hpp"
 
 namespace eyepoint::testing {
@@ -14,7 +15,7 @@ TEST_F(Run, WithoutAWindowTheToleranceStandsUnlessItIsAskedToMove) {
     ASSERT_EQ(lines.size(), 21U);
     for (std::size_t frame = 1; frame < lines.size(); ++frame) {
         EXPECT_EQ(lines[frame]["control"], "off");
-        EXPECT_EQ(lines[frame]["tau_px"], 2.0);
+        EXPECT_EQ(lines[frame]["tau_px"], config::Settings{}.terrain.tau_px);
     }
     EXPECT_EQ(log_.find("timer queries"), std::string::npos) << log_;
 }
