@@ -127,7 +127,7 @@ constexpr std::array kSections = {
     Section{"terrain", "The Earth that is drawn"},
     Section{"host", "The simulator that sends the eyepoint"},
     Section{"view", "The picture's size, and where the eye is on the vehicle"},
-    Section{"lod", "How levels of detail follow each other"},
+    Section{"lod", "How level of detail is chosen, and how levels follow each other"},
     Section{"render", "How pictures are drawn"},
     Section{"frame", "Frame rate and end of the run"},
     Section{"control", "Every frame in time: the tolerance moves"},
@@ -152,9 +152,6 @@ constexpr std::array kKeys = {
     text(row<kTerrain, &TerrainSettings::geoid>(
         "terrain", "geoid",
         "EGM96 grid in GeographicLib's PGM form; empty: the one that comes with Eyepoint")),
-    text(row<kTerrain, &TerrainSettings::lod_method>("terrain", "lod_method",
-                                                     "How blocks and their levels are chosen"),
-         "the name of a method", not_empty),
     number(0.1, 100.0,
            row<kTerrain, &TerrainSettings::tau_px>(
                "terrain", "tau_px", "Largest error of the drawn terrain that is allowed, pixels")),
@@ -215,12 +212,20 @@ constexpr std::array kKeys = {
           row<kView, &ViewSettings::cigi_view>("view", "cigi_view",
                                                "Which of a CIGI host's views this channel draws")),
 
+    text(row<kLod, &LodSettings::method>(
+             "lod", "method", "How blocks and their triangles are chosen: nested, regular or bintree"),
+         "the name of a method", not_empty),
     number(0.0, 1.0,
            row<kLod, &LodSettings::slack>("lod", "slack",
                                           "What a choice of level that is kept from frame to frame may "
                                           "exceed tau_px by, as a share of it")),
     choice(kSwitches, row<kLod, &LodSettings::morph>(
                           "lod", "morph", "Whether terrain slides from level to level; otherwise it jumps")),
+    whole(0, 10000000,
+          row<kLod, &LodSettings::triangles>("lod", "triangles",
+                                             "Triangles that the method bintree draws at most, spending them "
+                                             "where the error is greatest; 0: as "
+                                             "many as tau_px asks for")),
 
     choice(kShadings,
            row<kRender, &RenderSettings::shading>(

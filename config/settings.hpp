@@ -17,12 +17,11 @@ enum class Pacing : std::uint8_t { Fixed, Free, Host };
 enum class DrawWhen : std::uint8_t { Always, OnChange };
 
 struct TerrainSettings {
-    std::string database;  ///< folder of the terrain database
-    std::string geoid;     ///< EGM96 grid (GeographicLib PGM); empty: the one built with Eyepoint
-    std::string lod_method = "nested";  ///< how blocks are chosen
-    double tau_px = 1.0;                ///< tolerance in pixels, 0.1..100
-    std::uint32_t loader_threads = 1;   ///< 1..16
-    std::uint32_t cache_mib = 512;      ///< loaded blocks kept, 64..65536
+    std::string database;              ///< folder of the terrain database
+    std::string geoid;                 ///< EGM96 grid (GeographicLib PGM); empty: the one built with Eyepoint
+    double tau_px = 1.0;               ///< tolerance in pixels, 0.1..100
+    std::uint32_t loader_threads = 1;  ///< 1..16
+    std::uint32_t cache_mib = 512;     ///< loaded blocks kept, 64..65536
 };
 
 struct HostSettings {
@@ -45,8 +44,10 @@ struct ViewSettings {
 };
 
 struct LodSettings {
-    double slack = 0.1;         ///< share of the tolerance that a cached choice may use on top of it, 0..1
-    Switch morph = Switch::On;  ///< whether vertices slide from level to level
+    std::string method = "nested";  ///< how blocks and their triangles are chosen
+    double slack = 0.1;           ///< share of the tolerance that a cached choice may use on top of it, 0..1
+    Switch morph = Switch::On;    ///< whether vertices slide from level to level
+    std::uint32_t triangles = 0;  ///< of bintree, drawn at most; 0: as many as tau asks for; 0..10000000
 };
 
 struct RenderSettings {

@@ -138,7 +138,8 @@ Show show_of(config::Show show) {
 
 SceneOptions scene_options(const config::Settings& settings, const FrameTracks& tracks) {
     SceneOptions options;
-    options.lod_method = settings.terrain.lod_method;
+    options.lod_method = settings.lod.method;
+    options.triangle_budget = settings.lod.triangles;
     options.tau_px = settings.terrain.tau_px;
     options.slack = settings.lod.slack;
     options.morph = settings.lod.morph == config::Switch::On;
@@ -222,7 +223,7 @@ Expected<std::string> run_channel(const config::Settings& settings, const Channe
     if (*record) {
         const std::string header = to_json_line(
             RecordHeader{surroundings.version, gl, picture_size(settings.view), settings.frame.rate_hz,
-                         (*database)->manifest().name, settings.terrain.lod_method});
+                         (*database)->manifest().name, settings.lod.method});
         if (auto added = (*record)->add(header); !added) return tl::unexpected(added.error());
     }
     surroundings.inform(fmt::format("ready: listening on {} port {}, {}x{} at {:g} Hz, terrain {}, {} ({})",

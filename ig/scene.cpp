@@ -198,7 +198,7 @@ void TerrainScene::keep_still(const View& view) {
     if (!can) return still_.reset();
     // The old mesh goes last: llvmpipe compiles shaders anew when names that it has seen come back as other
     // buffers.
-    still_ = StillMesh{*drawn_, terrain_.list(), method_->indices(), lod_view_of(view), options_.morph};
+    still_ = StillMesh{*drawn_, terrain_.list(), *method_, lod_view_of(view), options_.morph};
 }
 
 void TerrainScene::draw_still(const View& view) {
@@ -226,7 +226,8 @@ std::uint64_t TerrainScene::load_all(const View& view) {
 
 tl::expected<std::unique_ptr<Scene>, std::string> Scene::create(
     std::shared_ptr<const terrain::Database> database, const SceneOptions& options) {
-    auto method = terrain::make_lod_method(options.lod_method, options.horizon_culling);
+    auto method = terrain::make_lod_method(
+        options.lod_method, {.cull = options.horizon_culling, .triangle_budget = options.triangle_budget});
     if (!method)
         return tl::unexpected(fmt::format("no LOD method is called '{}'; there is '{}'", options.lod_method,
                                           fmt::join(terrain::lod_method_names(), "', '")));

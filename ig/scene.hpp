@@ -26,6 +26,7 @@ namespace eyepoint::ig {
 struct SceneOptions {
     std::string lod_method = "nested";  ///< see terrain::lod_method_names()
     double tau_px = 1.0;                ///< tolerance, pixels
+    std::uint32_t triangle_budget = 0;  ///< terrain::LodMethodOptions
     double slack = 0.1;  ///< s as a share of tau: what a choice of level once made may exceed tau by
     bool morph = true;   ///< vertices slide from level to level; otherwise they jump
     bool horizon_culling = false;  ///< leave out what nearer terrain hides: the same picture; nested alone

@@ -53,11 +53,21 @@ void BlockStore::upload(const terrain::Block& block, std::uint32_t slot) {
                          static_cast<GLsizeiptr>(vertex_bytes), block.vertices.data());
     glNamedBufferSubData(relief_posts_.name(), static_cast<GLintptr>(slot * kReliefBytesPerSlot),
                          static_cast<GLsizeiptr>(kReliefBytesPerSlot), block.relief.data());
+    upload_list(slot, block.indices, 0);
+    ++uploads_;
+    uploaded_bytes_ += vertex_bytes + kReliefBytesPerSlot;
+}
+
+void BlockStore::set_list(std::uint32_t slot, const terrain::BlockMesh& mesh) {
+    if (lists_[slot].version != mesh.version) upload_list(slot, mesh.indices, mesh.version);
+}
+
+void BlockStore::upload_list(std::uint32_t slot, std::span<const std::uint16_t> indices,
+                             std::uint64_t version) {
     List& list = lists_[slot];
     indices_.remove(list.first, list.count);
-    list = {indices_.add(block.indices), static_cast<std::uint32_t>(block.indices.size())};
-    ++uploads_;
-    uploaded_bytes_ += vertex_bytes + kReliefBytesPerSlot + block.indices.size() * sizeof(std::uint16_t);
+    list = {indices_.add(indices), static_cast<std::uint32_t>(indices.size()), version};
+    uploaded_bytes_ += indices.size_bytes();
 }
 
 void BlockStore::grow() {

@@ -1,14 +1,16 @@
-/// Blocks on the graphics card: vertices and relief in buffers of equal slots, and the index lists of nested
-/// meshes.
+/// Blocks on the graphics card: vertices and relief in buffers of equal slots, and the index lists that
+/// blocks have of their own: those of nested meshes, and those that methods make.
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "ig/render/gl_objects.hpp"
 #include "ig/render/index_store.hpp"
 #include "ig/render/slot_table.hpp"
 #include "terrain/block/block.hpp"
+#include "terrain/lod/lod_method.hpp"
 
 namespace eyepoint::ig {
 
@@ -20,6 +22,8 @@ class BlockStore {
     /// The slot of a block, good for this frame; uploads the block if it is not there yet. When all slots are
     /// in use in this frame, the store doubles.
     [[nodiscard]] std::uint32_t slot_of(const terrain::Block& block, std::uint64_t frame);
+    /// Gives the block in a slot a list that was made for it; uploads it if the block has another one.
+    void set_list(std::uint32_t slot, const terrain::BlockMesh& mesh);
     /// Where the index list of the block in a slot begins in index_buffer(), in indices.
     [[nodiscard]] std::uint32_t first_index(std::uint32_t slot) const { return lists_[slot].first; }
 
@@ -38,8 +42,10 @@ class BlockStore {
     struct List {
         std::uint32_t first = 0;
         std::uint32_t count = 0;
+        std::uint64_t version = 0;  ///< BlockMesh's; 0: the block's own
     };
 
+    void upload_list(std::uint32_t slot, std::span<const std::uint16_t> indices, std::uint64_t version);
     void upload(const terrain::Block& block, std::uint32_t slot);
     void grow();
     void attach() const;

@@ -70,8 +70,9 @@ void DrawCommands::draw() const {
                                   static_cast<GLsizei>(counts.size()), base_vertices.data());
 }
 
-DrawList::DrawList(bool nested)
+DrawList::DrawList(bool nested, bool shared_list)
     : nested_(nested),
+      shared_list_(shared_list),
       blocks_(kFirstSlots),
       images_(kImageLayers),
       record_words_(GLenum{GL_TEXTURE_BUFFER}) {}
@@ -92,6 +93,7 @@ void DrawList::update(const terrain::Selection& selection, std::uint64_t frame) 
         if (draw.node != node) slot = place(*draw.node, frame);
         node = draw.node;
         if (drawn_in_frame_[slot] != frame) describe_drawn(draw, slot, frame);
+        if (draw.mesh != nullptr) blocks_.set_list(slot, *draw.mesh);
         add(draw, slot);
     }
     send_records();
@@ -160,7 +162,7 @@ std::size_t DrawList::features_of(const terrain::BlockDraw& draw, std::uint32_t 
 
 void DrawList::add(const terrain::BlockDraw& draw, std::uint32_t slot) {
     const std::size_t set = features_of(draw, slot);
-    const std::uint32_t first_index = nested_ ? blocks_.first_index(slot) : 0;
+    const std::uint32_t first_index = shared_list_ ? 0 : blocks_.first_index(slot);
     features_ |= set;
     all_.add(draw.indices, first_index, slot);
     by_features_[set].add(draw.indices, first_index, slot);

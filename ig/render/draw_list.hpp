@@ -44,9 +44,9 @@ class DrawList {
     /// are wrong.
     static constexpr std::uint32_t kNoSlot = 0;
 
-    /// nested: draws refer to the blocks' own index lists, and a drawn block's ancestors are there with it,
-    /// for the walk of nested.glsl; otherwise draws refer to a list that the caller binds.
-    explicit DrawList(bool nested);
+    /// nested: a drawn block's ancestors are there with it, for the walk of nested.glsl. shared_list: all
+    /// draws refer to one list, that the caller binds; otherwise to their blocks' (block_store()).
+    DrawList(bool nested, bool shared_list);
 
     /// Takes in a selection: uploads what is not on the card yet.
     void update(const terrain::Selection& selection, std::uint64_t frame);
@@ -85,6 +85,7 @@ class DrawList {
     void send_records();
 
     bool nested_;
+    bool shared_list_;
     BlockStore blocks_;
     ImageStore images_;
     GlBuffer record_buffer_;

@@ -38,11 +38,11 @@ void fill(const GlBuffer& buffer, std::size_t bytes, const void* content) {
 /// Content of the mesh's buffers, gathered draw by draw.
 class Gathering {
   public:
-    Gathering(const DrawList& list, std::span<const std::uint16_t> grid_indices, const terrain::LodView& view,
+    Gathering(const DrawList& list, const terrain::LodMethod& method, const terrain::LodView& view,
               bool morph)
         : vertices(std::size_t{list.block_store().slots()} * kBlockVertices),
           list_(list),
-          grid_indices_(grid_indices),
+          method_(method),
           view_(view),
           motion_(terrain::motion_view(view, morph)) {}
 
@@ -52,10 +52,8 @@ class Gathering {
             known->second.first = slot * kBlockVertices;
             known->second.place.fill(kUnused);
         }
-        const std::span<const std::uint16_t> indices =
-            grid_indices_.empty() ? draw.node->block->indices : grid_indices_;
         std::vector<std::uint32_t>& own = by_features[list_.features_of(draw, slot)];
-        for (const std::uint16_t index : indices.subspan(draw.indices.first, draw.indices.count)) {
+        for (const std::uint16_t index : terrain::indices_of(draw, method_.indices())) {
             all.push_back(vertex(draw, index, known->second));
             own.push_back(all.back());
         }
@@ -79,14 +77,15 @@ class Gathering {
         std::uint16_t& place = block.place[index];
         if (place == kUnused) {
             place = block.used++;
-            vertices[block.first + place] = grid_indices_.empty() ? stopped(draw, index, view_, motion_)
-                                                                  : draw.node->block->vertices[index];
+            const bool moves = method_.mesh_kind() == terrain::MeshKind::Nested;
+            vertices[block.first + place] =
+                moves ? stopped(draw, index, view_, motion_) : draw.node->block->vertices[index];
         }
         return block.first + place;
     }
 
     const DrawList& list_;
-    std::span<const std::uint16_t> grid_indices_;
+    const terrain::LodMethod& method_;
     const terrain::LodView& view_;
     terrain::MotionView motion_;
     std::unordered_map<std::uint32_t, Placed> blocks_;  ///< by slot of the list
@@ -95,13 +94,13 @@ class Gathering {
 }  // namespace
 
 StillMesh::StillMesh(const terrain::Selection& selection, const DrawList& list,
-                     std::span<const std::uint16_t> grid_indices, const terrain::LodView& view, bool morph)
+                     const terrain::LodMethod& method, const terrain::LodView& view, bool morph)
     : painted_{.records = list.record_buffer(),
                .record_words = list.record_words(),
                .relief = list.block_store().relief(),
                .images = list.images().texture(),
                .features = list.features()} {
-    Gathering content{list, grid_indices, view, morph};
+    Gathering content{list, method, view, morph};
     for (std::size_t i = 0; i < selection.draws.size(); ++i) content.add(selection.draws[i], list.slot(i));
     std::vector<std::uint32_t> indices = std::move(content.all);
     all_ = {0, indices.size()};

@@ -19,10 +19,10 @@ namespace eyepoint::ig {
 /// list draws the same selection. Making one takes many frames' time.
 class StillMesh {
   public:
-    /// selection: what `list` was last updated with. grid_indices: of a method whose blocks are grids; its
-    /// vertices do not move. view: with the tolerance that vertices move by (tau + slack).
-    StillMesh(const terrain::Selection& selection, const DrawList& list,
-              std::span<const std::uint16_t> grid_indices, const terrain::LodView& view, bool morph);
+    /// selection: what `list` was last updated with, of this method. view: with the tolerance that vertices
+    /// of nested meshes move by (tau + slack).
+    StillMesh(const terrain::Selection& selection, const DrawList& list, const terrain::LodMethod& method,
+              const terrain::LodView& view, bool morph);
 
     [[nodiscard]] DrawnTerrain terrain() const;
     void draw_all() const;

@@ -73,10 +73,15 @@ tl::expected<TerrainPass, std::string> TerrainPass::create(const terrain::LodMet
 }
 
 TerrainPass::TerrainPass(Programs programs, std::span<const std::uint16_t> indices, bool nested)
-    : programs_(std::move(programs)), nested_(nested), noise_(make_noise_texture()), list_(nested) {
-    if (!nested)
-        glNamedBufferStorage(indices_.name(), static_cast<GLsizeiptr>(indices.size_bytes()), indices.data(),
-                             0);
+    : programs_(std::move(programs)),
+      nested_(nested),
+      noise_(make_noise_texture()),
+      list_(nested, !indices.empty()) {
+    if (!indices.empty()) {
+        shared_indices_.emplace();
+        glNamedBufferStorage(shared_indices_->name(), static_cast<GLsizeiptr>(indices.size_bytes()),
+                             indices.data(), 0);
+    }
     describe_vertices();
 }
 
@@ -109,10 +114,10 @@ FrameStatistics TerrainPass::update(const terrain::Selection& selection, std::ui
 
 DrawnTerrain TerrainPass::terrain() const {
     const BlockStore& blocks = list_.block_store();
-    return {
-        blocks.vertex_buffer(),   blocks.vertex_words(), nested_ ? blocks.index_buffer() : indices_.name(),
-        list_.record_buffer(),    list_.record_words(),  blocks.relief(),
-        list_.images().texture(), list_.features()};
+    const GLuint indices = shared_indices_ ? shared_indices_->name() : blocks.index_buffer();
+    return {blocks.vertex_buffer(),   blocks.vertex_words(), indices,
+            list_.record_buffer(),    list_.record_words(),  blocks.relief(),
+            list_.images().texture(), list_.features()};
 }
 
 void TerrainPass::begin(const DrawnTerrain& terrain) const {

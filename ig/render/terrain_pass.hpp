@@ -72,7 +72,7 @@ class TerrainPass {
     std::optional<Programs> motionless_;  ///< of a method whose vertices move
     bool nested_;
     GlVertexArray layout_;
-    GlBuffer indices_;  ///< of a method whose blocks are grids
+    std::optional<GlBuffer> shared_indices_;  ///< of a method with one list for all draws
     GlTexture noise_;
     DrawList list_;
 };

@@ -1,19 +1,21 @@
 #include "terrain/lod/lod_method.hpp"
 
+#include "terrain/lod/bintree/bintree_lod.hpp"
 #include "terrain/lod/nested.hpp"
 #include "terrain/lod/regular.hpp"
 
 namespace eyepoint::terrain {
 
 namespace {
-constexpr std::array<std::string_view, 2> kNames{"nested", "regular"};
+constexpr std::array<std::string_view, 3> kNames{"nested", "regular", "bintree"};
 }  // namespace
 
 std::span<const std::string_view> lod_method_names() { return kNames; }
 
-std::unique_ptr<LodMethod> make_lod_method(std::string_view name, bool cull) {
-    if (name == kNames[0]) return std::make_unique<NestedLod>(true, cull);
+std::unique_ptr<LodMethod> make_lod_method(std::string_view name, const LodMethodOptions& options) {
+    if (name == kNames[0]) return std::make_unique<NestedLod>(true, options.cull);
     if (name == kNames[1]) return std::make_unique<RegularLod>();
+    if (name == kNames[2]) return std::make_unique<BintreeLod>(options.triangle_budget);
     return nullptr;
 }
 

@@ -27,11 +27,17 @@ struct LodView {
     double near_m = 0.5;    ///< nothing nearer is drawn
 };
 
-/// Triangles of a mesh: part of an index list, the method's or the block's own (LodMethod::mesh_kind).
-/// Indices name vertices of one block.
+/// Triangles of a mesh: part of an index list (index_list()). Indices name vertices of one block.
 struct IndexRange {
     std::uint32_t first = 0;
     std::uint32_t count = 0;
+};
+
+/// The index list that a method has made for one block and makes anew when it wants other triangles.
+/// Unchanged lists are not sent to the graphics card again.
+struct BlockMesh {
+    std::vector<std::uint16_t> indices;
+    std::uint64_t version = 0;  ///< another one whenever the indices are others, over all lists of the method
 };
 
 /// Vertices on an edge of a nested mesh are drawn as if the level asked for were at least so high: what is
@@ -45,6 +51,8 @@ struct BlockDraw {
     IndexRange indices;
     std::uint8_t level = 0;  ///< of the mesh, for show and statistics
     EdgeFloors floors{};
+    /// The list that the indices are of, where the method makes its own; good as long as the selection.
+    const BlockMesh* mesh = nullptr;
 };
 
 /// What to draw, near to far, and what to load. Meshes of neighbouring draws meet without cracks.
@@ -58,6 +66,17 @@ struct Selection {
     std::uint64_t triangles_hidden = 0;  ///< left out because nearer terrain hides them
 };
 
+/// The list that a draw's range is of: one made for the block, else the method's, else the block's own.
+[[nodiscard]] inline std::span<const std::uint16_t> index_list(const BlockDraw& draw,
+                                                               std::span<const std::uint16_t> of_method) {
+    if (draw.mesh != nullptr) return draw.mesh->indices;
+    return of_method.empty() ? std::span<const std::uint16_t>{draw.node->block->indices} : of_method;
+}
+[[nodiscard]] inline std::span<const std::uint16_t> indices_of(const BlockDraw& draw,
+                                                               std::span<const std::uint16_t> of_method) {
+    return index_list(draw, of_method).subspan(draw.indices.first, draw.indices.count);
+}
+
 /// Thread use: one thread (the frame's).
 class LodMethod {
   public:
@@ -66,7 +85,8 @@ class LodMethod {
     /// What blocks must be unfolded to. Nested: selections refer to the blocks' own index lists, and vertices
     /// move as terrain/lod/nested_motion.hpp says, at the tolerance tau + slack.
     [[nodiscard]] virtual MeshKind mesh_kind() const = 0;
-    /// The index list that selections of grids refer to; constant over the method's life.
+    /// The index list that all draws refer to, constant over the method's life. Empty: each draw has a list
+    /// of its block (index_list()).
     [[nodiscard]] virtual std::span<const std::uint16_t> indices() const = 0;
     /// The reference is good until the next call. The frame number grows by one a call; the tree is the same
     /// one in every call.
@@ -76,8 +96,16 @@ class LodMethod {
 
 /// Names that make_lod_method knows.
 [[nodiscard]] std::span<const std::string_view> lod_method_names();
-/// nullptr for an unknown name. cull: leave out what nearer terrain hides; nested alone, and it takes blocks
-/// with bounds (PagerOptions::cell_bounds).
-[[nodiscard]] std::unique_ptr<LodMethod> make_lod_method(std::string_view name, bool cull = false);
+/// What only some methods can; the others go without.
+struct LodMethodOptions {
+    /// Leave out what nearer terrain hides; nested, and it takes blocks with bounds
+    /// (PagerOptions::cell_bounds).
+    bool cull = false;
+    /// Triangles drawn at most, the tolerance being exceeded where they do not suffice; bintree. 0: no limit.
+    std::uint32_t triangle_budget = 0;
+};
+/// nullptr for an unknown name.
+[[nodiscard]] std::unique_ptr<LodMethod> make_lod_method(std::string_view name,
+                                                         const LodMethodOptions& options = {});
 
 }  // namespace eyepoint::terrain

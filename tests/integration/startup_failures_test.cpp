@@ -140,7 +140,7 @@ TEST_F(StartupFailure, AGeoidThatIsNotThere) {
 }
 
 TEST_F(StartupFailure, AnUnknownLodMethod) {
-    expect_one_line_with(run_with_terrain({"--set", "terrain.lod_method=magic"}), {"magic"});
+    expect_one_line_with(run_with_terrain({"--set", "lod.method=magic"}), {"magic"});
 }
 
 TEST_F(StartupFailure, NoDisplayForAWindow) {

@@ -113,6 +113,17 @@ TEST(SampleFlightHasNoCracks, WhileBlocksAreArriving) {
     EXPECT_GT(loading, 10);  // else nothing was proven
 }
 
+/// By a method that makes the blocks' triangles anew: what is drawn are the lists of this frame.
+TEST(SampleFlightHasNoCracks, WithBintreesCompleteAndWhileBlocksAreArriving) {
+    ig::SceneOptions options = sentinel_options();
+    options.lod_method = "bintree";
+    const auto eyes = eyes_of(sample_flight(), kSmall, kSampleRateHz);
+    Renderer renderer(open_synthetic_terrain(), kSmall, options);
+    const std::vector<ig::FlightEye> first(eyes.begin(), eyes.begin() + 60);
+    EXPECT_GT(sweep(renderer, first, 1, Loading::AsTheyArrive, "bintree-streaming").frames_loading, 5);
+    EXPECT_GE(sweep(renderer, eyes, 30, Loading::Complete, "bintree").frames, 50);
+}
+
 /// Real terrain from SRTM over a global DEM, made once for all tests of this file that need it.
 class RealFlightHasNoCracks : public ::testing::Test {
   protected:

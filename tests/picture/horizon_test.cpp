@@ -91,7 +91,7 @@ TEST_P(Horizon, IsWhereTheEllipsoidHasItWithinAPixel) {
         .half_size_deg = 0.01, .detail_depth = 1, .planet_depth = 1, .amplitude_m = 0.0};
     ig::SceneOptions options;
     options.sentinel = true;
-    // Regular blocks hold the curve of the Earth closer than their tolerance, nested meshes to it.
+    // Grids hold the curve of the Earth closer than their tolerance, nested meshes to it.
     options.lod_method = GetParam().lod_method;
     options.tau_px = options.lod_method == "nested" ? 1.0 : 2.0;
     Renderer renderer(make_database(bare, scratch.path() / "terrain"), {1920, 1080}, options);
@@ -130,7 +130,9 @@ INSTANTIATE_TEST_SUITE_P(Earth, Horizon,
                                            Ground{"EquatorRegular", 0.0, 10.0, "regular"},
                                            Ground{"North47Regular", 47.0, 8.0, "regular"},
                                            Ground{"South60AntimeridianRegular", -60.0, 179.9999, "regular"},
-                                           Ground{"NorthPoleRegular", 89.995, 120.0, "regular"}),
+                                           Ground{"NorthPoleRegular", 89.995, 120.0, "regular"},
+                                           Ground{"North47Bintree", 47.0, 8.0, "bintree"},
+                                           Ground{"NorthPoleBintree", 89.995, 120.0, "bintree"}),
                          [](const auto& instance) { return instance.param.name; });
 
 }  // namespace

@@ -61,7 +61,9 @@ INSTANTIATE_TEST_SUITE_P(Ways, StillMesh,
                          ::testing::Values(Way{"NestedDeferred", "nested", ig::Shading::Deferred},
                                            Way{"NestedForward", "nested", ig::Shading::Forward},
                                            Way{"RegularDeferred", "regular", ig::Shading::Deferred},
-                                           Way{"RegularForward", "regular", ig::Shading::Forward}),
+                                           Way{"RegularForward", "regular", ig::Shading::Forward},
+                                           Way{"BintreeDeferred", "bintree", ig::Shading::Deferred},
+                                           Way{"BintreeForward", "bintree", ig::Shading::Forward}),
                          [](const auto& instance) { return instance.param.name; });
 
 }  // namespace

@@ -101,9 +101,9 @@ std::vector<terrain::LodView> views_of(std::span<const ig::FlightEye> eyes, cons
     return views;
 }
 
-ProvenFlight::ProvenFlight(std::shared_ptr<const terrain::Database> database)
+ProvenFlight::ProvenFlight(std::shared_ptr<const terrain::Database> database, const std::string& lod_method)
     : database_(std::move(database)),
-      flight_(value_or_throw(tools::LodFlight::create(database_, {.lod_method = "nested"}))),
+      flight_(value_or_throw(tools::LodFlight::create(database_, {.lod_method = lod_method}))),
       surface_(database_) {}
 
 Findings ProvenFlight::fly(std::span<const terrain::LodView> views, const tools::MeasureOptions& options) {
@@ -119,7 +119,7 @@ Findings ProvenFlight::fly(std::span<const terrain::LodView> views, const tools:
     return findings;
 }
 
-void expect_sound(const Findings& findings, const std::string& name) {
+void expect_whole(const Findings& findings, const std::string& name) {
     const tools::FlightFigures& figures = findings.figures;
     const tools::PostFigures& posts = figures.posts;
     fmt::print(
@@ -131,17 +131,22 @@ void expect_sound(const Findings& findings, const std::string& name) {
         posts.error.percentile(0.999), findings.beyond, findings.rounded_over, posts.uncovered,
         posts.overlapped, posts.folded, figures.pops.count(), figures.pops.maximum(),
         100.0 * figures.reused_share);
+    if (findings.beyond > 0) fmt::print("worst: {}\n", describe(findings.worst));
     EXPECT_GT(figures.faults.edges, 0U) << name;
     EXPECT_GT(posts.error.count(), 0U) << name;
     EXPECT_EQ(figures.faults.cracks, 0U) << name;
     EXPECT_EQ(posts.uncovered, 0U) << name << ": " << describe_hole(posts);
+}
+
+void expect_sound(const Findings& findings, const std::string& name) {
+    expect_whole(findings, name);
     EXPECT_EQ(findings.beyond, 0U) << name << ": " << describe(findings.worst);
 }
 
 std::size_t expect_whole_while_loading(const std::shared_ptr<const terrain::Database>& database,
                                        std::span<const terrain::LodView> views, std::size_t blocks_a_frame,
-                                       std::size_t every) {
-    auto method = terrain::make_lod_method("nested");
+                                       std::size_t every, const std::string& lod_method) {
+    auto method = terrain::make_lod_method(lod_method);
     auto pager = value_or_throw(
         terrain::Pager::create(database, {.mesh = method->mesh_kind(), .cache_bytes = 8ULL << 30}));
     tools::FullSurface surface(database);

@@ -1,4 +1,4 @@
-/// The nested method flown over a database, and what is wrong with what it draws.
+/// A level-of-detail method flown over a database, and what is wrong with what it draws.
 #pragma once
 
 #include <array>
@@ -60,7 +60,8 @@ struct Findings {
 class ProvenFlight {
   public:
     /// Throws std::runtime_error.
-    explicit ProvenFlight(std::shared_ptr<const terrain::Database> database);
+    explicit ProvenFlight(std::shared_ptr<const terrain::Database> database,
+                          const std::string& lod_method = "nested");
 
     /// Flies all views, with everything loaded, and looks at one in `every`. Throws std::runtime_error.
     [[nodiscard]] Findings fly(std::span<const terrain::LodView> views, const tools::MeasureOptions& options);
@@ -71,7 +72,9 @@ class ProvenFlight {
     tools::FullSurface surface_;
 };
 
-/// The mesh is whole, covers every post in view, and no post is beyond tau + s. Prints the figures.
+/// The mesh is whole and covers every post in view. Prints the figures, with the worst post beyond tau + s.
+void expect_whole(const Findings& findings, const std::string& name);
+/// And no post is beyond tau + s.
 void expect_sound(const Findings& findings, const std::string& name);
 
 /// Flies the views while at most `blocks_a_frame` blocks arrive between two frames, and expects every frame's
@@ -79,6 +82,6 @@ void expect_sound(const Findings& findings, const std::string& name);
 /// which something was missing.
 std::size_t expect_whole_while_loading(const std::shared_ptr<const terrain::Database>& database,
                                        std::span<const terrain::LodView> views, std::size_t blocks_a_frame,
-                                       std::size_t every);
+                                       std::size_t every, const std::string& lod_method = "nested");
 
 }  // namespace eyepoint::testing

@@ -1,4 +1,5 @@
-/// The nested method on seeded random walks over analytic terrain.
+/// Seeded random walks over analytic terrain: the nested method keeps to the tolerance; bintree has no such
+/// bound, and its mesh is as whole.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -11,6 +12,7 @@ namespace {
 struct WalkPlace {
     std::string name;
     AnalyticTerrain terrain;
+    std::string lod_method = "nested";
 };
 void PrintTo(const WalkPlace& place, std::ostream* out) { *out << place.name; }
 
@@ -33,25 +35,34 @@ class WalkProof : public ::testing::TestWithParam<WalkPlace> {
         make_database(GetParam().terrain, scratch_.path() / "db");
 };
 
-TEST_P(WalkProof, IsWholeAndWithinTheTolerance) {
-    ProvenFlight flight(database_);
+TEST_P(WalkProof, IsWholeAndWithinItsBounds) {
+    ProvenFlight flight(database_, GetParam().lod_method);
     const auto views = walk(20261122, every_frame() ? 240 : 24);
-    expect_sound(flight.fly(views, {.every = one_in(4), .far_m = 40000.0, .pops = false}), GetParam().name);
+    const Findings findings = flight.fly(views, {.every = one_in(4), .far_m = 40000.0, .pops = false});
+    if (GetParam().lod_method == "nested")
+        expect_sound(findings, GetParam().name);
+    else
+        expect_whole(findings, GetParam().name);
 }
 
 TEST_P(WalkProof, IsWholeWhileAFewBlocksArriveAFrame) {
     const auto views = walk(7, every_frame() ? 60 : 6);
-    EXPECT_GT(expect_whole_while_loading(database_, views, 5, one_in(9)), views.size() / 2);
+    EXPECT_GT(expect_whole_while_loading(database_, views, 5, one_in(9), GetParam().lod_method),
+              views.size() / 2);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Earth, WalkProof,
-    ::testing::Values(
-        WalkPlace{"Hills", {.half_size_deg = 0.3, .detail_depth = 11}},
-        WalkPlace{"Antimeridian",
-                  {.latitude_deg = -17.0, .longitude_deg = 180.0, .half_size_deg = 0.3, .detail_depth = 11}},
-        WalkPlace{"Pole", {.latitude_deg = 90.0, .half_size_deg = 0.4, .detail_depth = 9}}),
-    [](const auto& instance) { return instance.param.name; });
+constexpr AnalyticTerrain kHills{.half_size_deg = 0.3, .detail_depth = 11};
+constexpr AnalyticTerrain kAntimeridian{
+    .latitude_deg = -17.0, .longitude_deg = 180.0, .half_size_deg = 0.3, .detail_depth = 11};
+constexpr AnalyticTerrain kPole{.latitude_deg = 90.0, .half_size_deg = 0.4, .detail_depth = 9};
+
+INSTANTIATE_TEST_SUITE_P(Earth, WalkProof,
+                         ::testing::Values(WalkPlace{"Hills", kHills},
+                                           WalkPlace{"Antimeridian", kAntimeridian}, WalkPlace{"Pole", kPole},
+                                           WalkPlace{"HillsBintree", kHills, "bintree"},
+                                           WalkPlace{"AntimeridianBintree", kAntimeridian, "bintree"},
+                                           WalkPlace{"PoleBintree", kPole, "bintree"}),
+                         [](const auto& instance) { return instance.param.name; });
 
 }  // namespace
 }  // namespace eyepoint::testing

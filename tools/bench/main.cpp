@@ -38,6 +38,8 @@ void add_drawing_options(CLI::App& command, BenchOptions& options, bool terrain_
         ->check(CLI::Range(0.05, 100.0))
         ->capture_default_str();
     command.add_option("--lod", options.scene.lod_method, "level-of-detail method")->capture_default_str();
+    command.add_option("--triangles", options.scene.triangle_budget,
+                       "bintree alone: triangles a frame at most; 0: no limit");
     command.add_option("--visibility", options.scene.visibility_m, "metres")->capture_default_str();
     command.add_option("--pictures", options.pictures, "folder for pictures")->type_name("DIR");
     command.add_option("--every", options.picture_every, "a picture every so many frames")

@@ -78,6 +78,7 @@ nlohmann::json header(const MeasureRequest& request) {
     return {{"path", request.eyes.file.filename().string()},
             {"lod", request.flight.lod_method},
             {"tau_px", request.tau_px},
+            {"triangle_budget", request.flight.triangle_budget},
             {"slack_px", request.slack_px},
             {"morph", request.options.morph},
             {"width_px", request.eyes.size.width_px},
@@ -149,6 +150,8 @@ void add_measuring(CLI::App& command, MeasureRequest& request) {
                      "nested alone: leave out what nearer terrain hides; posts there count as uncovered");
     command.add_flag("--selection-only", request.selection_only,
                      "measure what selection does, not the mesh: no post error, no jumps, no cracks");
+    command.add_option("--triangles", request.flight.triangle_budget,
+                       "bintree alone: triangles a frame at most; 0: no limit");
     command.add_option("--every", request.options.every, "measure every so-manieth frame")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();

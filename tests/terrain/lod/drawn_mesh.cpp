@@ -144,8 +144,7 @@ MeshFaults find_faults(std::span<const BlockDraw> draws, std::span<const std::ui
         mesh.lattice.depth = std::max(mesh.lattice.depth, draw.node->tile.depth);
         mesh.drawn.insert(draw.node->tile);
     }
-    for (const BlockDraw& draw : draws)
-        mesh.add(draw, indices.subspan(draw.indices.first, draw.indices.count));
+    for (const BlockDraw& draw : draws) mesh.add(draw, terrain::indices_of(draw, indices));
     MeshFaults faults;
     faults.folded = mesh.folded;
     faults.unequal_bits = count_unequal_bits(mesh.posts);

@@ -30,7 +30,7 @@ HalfTurns on_earth(terrain::TileId tile, const glm::dvec2& in_tile) {
 class Builder {
   public:
     Builder(const terrain::LodMethod& method, const terrain::LodView& view, bool morph)
-        : kind_(method.mesh_kind()), grid_indices_(method.indices()), eye_(terrain::split(view.eye)) {
+        : kind_(method.mesh_kind()), of_method_(method.indices()), eye_(terrain::split(view.eye)) {
         if (kind_ == MeshKind::Nested) motion_ = terrain::motion_view(view, morph);
         mesh_.eye = view.eye;
         mesh_.sides = view.sides;
@@ -38,11 +38,8 @@ class Builder {
     }
 
     void add(const BlockDraw& draw) {
-        const auto& block = *draw.node->block;
-        const std::span<const std::uint16_t> list =
-            kind_ == MeshKind::Grid ? grid_indices_ : std::span<const std::uint16_t>{block.indices};
         const std::size_t first = mesh_.triangles.size();
-        const auto indices = list.subspan(draw.indices.first, draw.indices.count);
+        const auto indices = terrain::indices_of(draw, of_method_);
         for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
             const MeshTriangle triangle{
                 {vertex(draw, indices[i]), vertex(draw, indices[i + 1]), vertex(draw, indices[i + 2])}};
@@ -86,7 +83,7 @@ class Builder {
     }
 
     MeshKind kind_;
-    std::span<const std::uint16_t> grid_indices_;
+    std::span<const std::uint16_t> of_method_;
     terrain::SplitPosition eye_;
     terrain::MotionView motion_;
     DrawnMesh mesh_;

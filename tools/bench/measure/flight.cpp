@@ -12,7 +12,8 @@ namespace eyepoint::tools {
 
 tl::expected<std::unique_ptr<LodFlight>, std::string> LodFlight::create(
     std::shared_ptr<const terrain::Database> database, const FlightOptions& options) {
-    auto method = terrain::make_lod_method(options.lod_method, options.cull);
+    auto method = terrain::make_lod_method(
+        options.lod_method, {.cull = options.cull, .triangle_budget = options.triangle_budget});
     if (!method) {
         return tl::unexpected(fmt::format("no LOD method is called '{}'; there is {}", options.lod_method,
                                           fmt::join(terrain::lod_method_names(), ", ")));
@@ -53,6 +54,10 @@ std::uint64_t LodFlight::count_uploads(const terrain::Selection& selection) {
         const terrain::Block& block = *draw.node->block;
         if (uploaded_.insert(&block).second)
             bytes += block.vertices.size() * sizeof(terrain::BlockVertex) + block.indices.size() * 2;
+        if (draw.mesh == nullptr) continue;
+        std::uint64_t& version = mesh_versions_[&block];
+        if (std::exchange(version, draw.mesh->version) != draw.mesh->version)
+            bytes += draw.mesh->indices.size() * sizeof(std::uint16_t);
     }
     return bytes;
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <unordered_map>
 #include <unordered_set>
 
 #include <tl/expected.hpp>
@@ -16,6 +17,7 @@ namespace eyepoint::tools {
 struct FlightOptions {
     std::string lod_method = "nested";
     bool cull = false;  ///< nested alone: leave out what nearer terrain hides; the drawn mesh has gaps there
+    std::uint32_t triangle_budget = 0;  ///< terrain::LodMethodOptions
     unsigned loader_threads = 1;
     std::uint64_t block_cache_bytes =
         8ULL << 30;  ///< so much that a path flown twice loads nothing the second time
@@ -27,8 +29,9 @@ struct FlightOptions {
 struct SelectionWork {
     double cpu_ns = 0.0;  ///< by the thread's clock
     std::uint64_t allocations = 0;
-    std::uint64_t blocks_wished = 0;   ///< not loaded: the selection makes do without them
-    std::uint64_t uploaded_bytes = 0;  ///< of blocks that no earlier frame has drawn
+    std::uint64_t blocks_wished = 0;  ///< not loaded: the selection makes do without them
+    /// Of blocks that no earlier frame has drawn, and of lists made for blocks that none has drawn so.
+    std::uint64_t uploaded_bytes = 0;
 };
 
 /// Thread use: one thread.
@@ -45,7 +48,10 @@ class LodFlight {
     /// Of the last select().
     [[nodiscard]] const SelectionWork& work() const { return work_; }
     /// From here on, every block counts as not drawn before.
-    void forget_uploads() { uploaded_.clear(); }
+    void forget_uploads() {
+        uploaded_.clear();
+        mesh_versions_.clear();
+    }
     /// Selects, and loads, until nothing that can be read is missing. The last selection.
     const terrain::Selection& settle(const terrain::LodView& view);
 
@@ -62,6 +68,7 @@ class LodFlight {
     std::uint64_t frame_ = 0;
     SelectionWork work_;
     std::unordered_set<const terrain::Block*> uploaded_;
+    std::unordered_map<const terrain::Block*, std::uint64_t> mesh_versions_;  ///< of the lists made for them
 };
 
 }  // namespace eyepoint::tools

@@ -1,0 +1,110 @@
+#include "terrain/lod/bintree/split_vertices.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include <glm/geometric.hpp>
+
+#include "terrain/geodesy/earth.hpp"
+#include "terrain/lod/bintree/block_triangles.hpp"
+
+namespace eyepoint::terrain::bintree {
+
+namespace {
+
+/// Heights at a triangle's corners.
+struct Plane {
+    float apex = 0.0F, left = 0.0F, right = 0.0F;
+};
+
+class Deviations {
+  public:
+    explicit Deviations(const BlockData& data, const BlockTriangles& triangles)
+        : data_(data), triangles_(triangles) {}
+
+    /// Greatest distance along the vertical of a post in a triangle from the triangle's plane, metres.
+    /// Triangles of odd levels have their legs across the grid; their children's lie along it.
+    [[nodiscard]] float of(Code code) const {
+        const TriangleVertices& at = triangles_[code];
+        const Plane plane{height_m(at.apex), height_m(at.left), height_m(at.right)};
+        if (level(code) % 2 == 0) return from(code, plane);
+        const float split = (plane.left + plane.right) * 0.5F;
+        return std::max(from(left_child(code), {split, plane.apex, plane.left}),
+                        from(right_child(code), {split, plane.right, plane.apex}));
+    }
+
+  private:
+    [[nodiscard]] float height_m(int vertex) const {
+        return data_.height_m(vertex / kBlockPosts, vertex % kBlockPosts);
+    }
+
+    /// Of a triangle of an even level: its posts are apex + i steps to the left + j steps to the right,
+    /// i + j <= cells.
+    [[nodiscard]] float from(Code code, const Plane& plane) const {
+        const TriangleVertices& at = triangles_[code];
+        const int cells = kBlockCells >> (level(code) / 2);
+        const int to_left = (int{at.left} - int{at.apex}) / cells,
+                  to_right = (int{at.right} - int{at.apex}) / cells;
+        const float left_step = (plane.left - plane.apex) / static_cast<float>(cells),
+                    right_step = (plane.right - plane.apex) / static_cast<float>(cells);
+        float greatest = 0.0F;
+        for (int i = 0; i <= cells; ++i) {
+            const float row = plane.apex + left_step * static_cast<float>(i);
+            for (int j = 0; i + j <= cells; ++j) {
+                const float post = height_m(int{at.apex} + i * to_left + j * to_right);
+                greatest = std::max(greatest, std::abs(post - (row + right_step * static_cast<float>(j))));
+            }
+        }
+        return greatest;
+    }
+
+    const BlockData& data_;
+    const BlockTriangles& triangles_;
+};
+
+/// Enlarges a ball until it holds another.
+void enclose(SplitVertex& ball, const SplitVertex& other) {
+    ball.radius_m =
+        std::max(ball.radius_m, glm::distance(ball.from_origin_m, other.from_origin_m) + other.radius_m);
+}
+
+Ecef position(const BlockVertex& vertex) {
+    return {double{vertex.high[0]} + double{vertex.low[0]}, double{vertex.high[1]} + double{vertex.low[1]},
+            double{vertex.high[2]} + double{vertex.low[2]}};
+}
+
+}  // namespace
+
+SplitVertices split_vertices(const Block& block) {
+    const BlockTriangles& triangles = block_triangles(diagonal_of(block.data.tile));
+    SplitVertices result{position(block.vertices[kBlockVertices / 2]), {}};
+    result.vertices.reserve(kBlockVertices);
+    for (const BlockVertex& vertex : block.vertices)
+        result.vertices.push_back({glm::vec3{position(vertex) - result.origin}, 0.0F, 0.0F});
+
+    const Deviations deviations(block.data, triangles);
+    for (Code code = kSplitCodesEnd - 1; code >= kRootA; --code) {
+        const TriangleVertices& at = triangles[code];
+        SplitVertex& split = result.vertices[at.middle];
+        split.error_m = std::max(split.error_m, deviations.of(code));
+        for (const std::uint16_t corner : {at.apex, at.left, at.right})
+            enclose(split, {result.vertices[corner].from_origin_m, 0.0F, 0.0F});
+        if (level(code) + 1 == kFinestLevel) continue;
+        for (const Code child : {left_child(code), right_child(code)}) {
+            const SplitVertex& below = result.vertices[triangles[child].middle];
+            split.error_m = std::max(split.error_m, below.error_m);
+            enclose(split, below);
+        }
+    }
+    return result;
+}
+
+double arc_height_m(std::uint32_t depth, int level) {
+    constexpr double kPi = 3.14159265358979323846;
+    const double base_rad = tile_side_deg(depth) * kPi / 180.0 * std::sqrt(2.0) * std::pow(0.5, level / 2.0);
+    return kEquatorialRadiusM * (1.0 - std::cos(std::min(base_rad, kPi) / 2.0));
+}
+
+}  // namespace eyepoint::terrain::bintree

@@ -1,0 +1,67 @@
+/// Which tiles to draw for a view: the leaves of a cut through the quadtree, for methods that draw grids.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "terrain/lod/lod_method.hpp"
+#include "terrain/tiling/tile_bounds.hpp"
+
+namespace eyepoint::terrain {
+
+/// From the roots down, a visible tile is split when its finest level is too coarse for the view:
+/// kappa * delta_0 / D > tau, or when its picture's texels cover more than two pixels and there are finer
+/// pictures below. A split needs the four children loaded (else they are wished for and the tile is drawn in
+/// their place), and no edge neighbour that is drawn and less deep (else that is split first): so neighbours
+/// in the cut differ by one depth at most.
+/// Tiles outside the view or hidden by the curve of the Earth are not drawn and set no conditions: an edge
+/// shared with them is not seen.
+/// Uses TileNode::mark. Thread use: the frame's.
+class TileCut {
+  public:
+    /// tau_px: what a tile's finest level may err by. The tree must outlive the next update.
+    void update(const LodView& view, double tau_px, TileTree& tree, std::uint64_t frame);
+
+    /// Of the last update: the visible leaves, their blocks loaded, in no particular order.
+    [[nodiscard]] std::span<TileNode* const> leaves() const { return leaves_; }
+    /// Of the last update: children that a split lacked.
+    [[nodiscard]] const std::vector<BlockRequest>& wishes() const { return wishes_; }
+    /// Of the last update: tiles looked at.
+    [[nodiscard]] std::uint32_t tested() const { return tested_; }
+
+    /// Screen error of a regular level of a tile in the cut, pixels: of its shape, or of the curve of the
+    /// Earth alone, whichever asks for more. The curve is held to kHorizonPx whatever tau is, as far as it is
+    /// seen from the side: the horizon is the one line in the picture that is known exactly.
+    [[nodiscard]] double error_px(const TileNode& node, int level) const;
+    /// The visible leaves across a leaf's edge: one at most as deep as the tile, or the two of the next
+    /// depth, in the order of the edge's halves; absent ones are nullptr. When one leaf covers the whole edge
+    /// it is in both places.
+    [[nodiscard]] std::array<TileNode*, 2> across(const TileNode& node, Edge edge) const;
+
+  private:
+    [[nodiscard]] bool sees(const TileBounds& bounds) const;
+    [[nodiscard]] double seen_from_side(const TileBounds& bounds) const;
+    [[nodiscard]] bool too_coarse(const TileNode& node) const;
+    [[nodiscard]] TileNode& covering(TileId tile) const;
+    void visit(TileNode& node);
+    [[nodiscard]] bool split(TileNode& node);
+    [[nodiscard]] bool have_children(TileNode& node, double priority);
+    void keep_ready(TileId tile, double priority);
+
+    LodView view_;
+    double tau_px_ = 1.0;
+    TileTree* tree_ = nullptr;
+    std::uint64_t frame_ = 0;
+    HorizonOccluder horizon_{Ecef{0.0}, 0.0};
+    std::vector<std::vector<TileNode*>> by_depth_;  ///< tiles to visit, coarsest first
+    std::vector<TileNode*> leaves_;
+    std::vector<BlockRequest> wishes_;
+    std::uint32_t tested_ = 0;
+};
+
+/// How far, in pixels, the drawn horizon of a bare Earth may lie from the true one, for the mesh's part.
+inline constexpr double kHorizonPx = 0.45;
+
+}  // namespace eyepoint::terrain
