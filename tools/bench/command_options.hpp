@@ -25,5 +25,6 @@ void add_measure_command(CLI::App& program);
 void add_goals_command(CLI::App& program);
 void add_compare_command(CLI::App& program);
 void add_control_command(CLI::App& program);
+void add_papers_command(CLI::App& program);
 
 }  // namespace eyepoint::tools

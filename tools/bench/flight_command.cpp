@@ -117,6 +117,13 @@ void add_result_options(CLI::App& command, FlightRequest& request) {
     command.add_option("--loader-threads", request.drawing.scene.loader_threads, "threads that load blocks")
         ->check(CLI::Range(1, 64))
         ->capture_default_str();
+    command
+        .add_option_function<std::uint64_t>(
+            "--cache-mib",
+            [&request](std::uint64_t mib) { request.drawing.scene.block_cache_bytes = mib << 20; },
+            "memory for blocks that have been read, MiB")
+        ->check(CLI::Range(16, 65536))
+        ->default_str("512");
 }
 
 }  // namespace

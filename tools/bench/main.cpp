@@ -61,6 +61,7 @@ int main(int argc, char** argv) {
     eyepoint::tools::add_goals_command(program);
     eyepoint::tools::add_compare_command(program);
     eyepoint::tools::add_control_command(program);
+    eyepoint::tools::add_papers_command(program);
     CLI11_PARSE(program, argc, argv);
     return EXIT_SUCCESS;
 }

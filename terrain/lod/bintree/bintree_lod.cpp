@@ -30,6 +30,13 @@ constexpr int kMostTries = 16;
 /// Left of a margin after it was worked out in floats.
 constexpr double kMarginKept = 0.999;
 
+float distance_m(const BlockVertex& vertex, const SplitPosition& eye) {
+    const auto along = [&](std::size_t axis) {
+        return (vertex.high[axis] - eye.high[axis]) + (vertex.low[axis] - eye.low[axis]);
+    };
+    return glm::length(glm::vec3{along(0), along(1), along(2)});
+}
+
 bool same_scale(const LodView& a, const LodView& b) {
     return a.kappa_px == b.kappa_px && a.tau_px == b.tau_px && a.near_m == b.near_m;
 }
@@ -181,7 +188,7 @@ void BintreeLod::judge(const LodView& view) {
 BintreeLod::Judgement BintreeLod::judge(const Active& block, const LodView& view) const {
     const TileNode& node = *block.node;
     const auto& triangles = bintree::block_triangles(bintree::diagonal_of(node.tile));
-    const glm::vec3 eye_m{view.eye - block.vertices.origin};
+    const SplitPosition eye = split(view.eye);
     const double reach_a_metre = view.kappa_px / view.tau_px;
     std::array<double, kFinestLevel> least_reach_m{};
     for (int level = 0; level < kFinestLevel; ++level)
@@ -194,12 +201,14 @@ BintreeLod::Judgement BintreeLod::judge(const Active& block, const LodView& view
     while (waiting > 0) {
         const Code code = stack[--waiting];
         const int level = bintree::level(code);
-        const bintree::SplitVertex& vertex = block.vertices.vertices[triangles[code].middle];
-        const double reach_m = std::max(reach_a_metre * (double{vertex.error_m} + node.info.delta_m[0]),
-                                        least_reach_m[static_cast<std::size_t>(level)]);
+        const std::uint16_t middle = triangles[code].middle;
+        const bintree::SplitVertex& vertex = block.vertices[middle];
+        const double reach_m =
+            std::max(reach_a_metre * (double{vertex.error.metres()} + node.info.delta_m[0]),
+                     least_reach_m[static_cast<std::size_t>(level)]);
         if (reach_m <= view.near_m) continue;
         const double beyond_m =
-            double{glm::distance(eye_m, vertex.from_origin_m)} - double{vertex.radius_m} - reach_m;
+            double{distance_m(node.block->vertices[middle], eye)} - double{vertex.radius.metres()} - reach_m;
         result.margin_m = std::min(result.margin_m, std::abs(beyond_m));
         if (beyond_m >= 0.0) continue;
         result.wanted.insert(code);

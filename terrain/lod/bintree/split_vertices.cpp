@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 
 #include "terrain/geodesy/earth.hpp"
 #include "terrain/lod/bintree/block_triangles.hpp"
@@ -64,38 +65,39 @@ class Deviations {
     const BlockTriangles& triangles_;
 };
 
-/// Enlarges a ball until it holds another.
-void enclose(SplitVertex& ball, const SplitVertex& other) {
-    ball.radius_m =
-        std::max(ball.radius_m, glm::distance(ball.from_origin_m, other.from_origin_m) + other.radius_m);
+/// Rounded up by at least what a float loses.
+float distance_m(const BlockVertex& a, const BlockVertex& b) {
+    glm::dvec3 apart{0.0};
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto i = static_cast<std::size_t>(axis);
+        apart[axis] = (double{a.high[i]} - double{b.high[i]}) + (double{a.low[i]} - double{b.low[i]});
+    }
+    constexpr double kUp = 1.0 + 2e-7;
+    return static_cast<float>(glm::length(apart) * kUp);
 }
 
-Ecef position(const BlockVertex& vertex) {
-    return {double{vertex.high[0]} + double{vertex.low[0]}, double{vertex.high[1]} + double{vertex.low[1]},
-            double{vertex.high[2]} + double{vertex.low[2]}};
+void raise(LengthBound& bound, float to_m) {
+    if (to_m > bound.metres()) bound = LengthBound::of(to_m);
 }
 
 }  // namespace
 
 SplitVertices split_vertices(const Block& block) {
     const BlockTriangles& triangles = block_triangles(diagonal_of(block.data.tile));
-    SplitVertices result{position(block.vertices[kBlockVertices / 2]), {}};
-    result.vertices.reserve(kBlockVertices);
-    for (const BlockVertex& vertex : block.vertices)
-        result.vertices.push_back({glm::vec3{position(vertex) - result.origin}, 0.0F, 0.0F});
-
+    SplitVertices result{};
     const Deviations deviations(block.data, triangles);
     for (Code code = kSplitCodesEnd - 1; code >= kRootA; --code) {
         const TriangleVertices& at = triangles[code];
-        SplitVertex& split = result.vertices[at.middle];
-        split.error_m = std::max(split.error_m, deviations.of(code));
+        const BlockVertex& middle = block.vertices[at.middle];
+        SplitVertex& split = result[at.middle];
+        raise(split.error, deviations.of(code));
         for (const std::uint16_t corner : {at.apex, at.left, at.right})
-            enclose(split, {result.vertices[corner].from_origin_m, 0.0F, 0.0F});
+            raise(split.radius, distance_m(middle, block.vertices[corner]));
         if (level(code) + 1 == kFinestLevel) continue;
         for (const Code child : {left_child(code), right_child(code)}) {
-            const SplitVertex& below = result.vertices[triangles[child].middle];
-            split.error_m = std::max(split.error_m, below.error_m);
-            enclose(split, below);
+            const std::uint16_t below = triangles[child].middle;
+            raise(split.error, result[below].error.metres());
+            raise(split.radius, distance_m(middle, block.vertices[below]) + result[below].radius.metres());
         }
     }
     return result;

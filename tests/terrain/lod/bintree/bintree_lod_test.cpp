@@ -236,15 +236,20 @@ TEST(BintreeLod, ABudgetThatSufficesChangesNothing) {
 TEST(BintreeLod, AnActiveNodeTakesAtMost16Bytes) {
     for (const std::uint32_t budget : {0U, 20000U, 5000U}) {
         Flight flight{alps().database, budget};
-        std::uint64_t nodes = 0, bytes = 0;
+        std::uint64_t nodes = 0, bits_bytes = 0, error_bytes = 0;
         for (const BlockDraw& draw : flight.settle(look_from(2500.0, 40.0, 12.0, 0.1)).draws) {
             nodes += std::uint64_t{draw.indices.count} / 3 * 2 - 2;
-            bytes += 2 * sizeof(bintree::CodeSet);
+            bits_bytes += 2 * sizeof(bintree::CodeSet);
+            error_bytes += sizeof(bintree::SplitVertices);
         }
         ASSERT_GT(nodes, 1000U);
-        EXPECT_LE(bytes, 16 * nodes) << "budget " << budget;
+        EXPECT_LE(bits_bytes, 16 * nodes) << "budget " << budget;
+        // Errors are there for all posts of a block, however few of them a budget leaves.
+        if (budget == 0) {
+            EXPECT_LE(bits_bytes + error_bytes, 16 * nodes);
+        }
         RecordProperty("milli_bytes_a_node_" + std::to_string(budget),
-                       static_cast<int>(1000 * bytes / nodes));
+                       static_cast<int>(1000 * bits_bytes / nodes));
     }
 }
 

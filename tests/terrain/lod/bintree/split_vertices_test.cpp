@@ -57,8 +57,14 @@ class SplitVerticesOf : public ::testing::TestWithParam<TileId> {
         }
         return greatest;
     }
-    const SplitVertex& vertex(Code code) const {
-        return result_.vertices[block_triangles(diagonal_)[code].middle];
+    const SplitVertex& vertex(Code code) const { return result_[block_triangles(diagonal_)[code].middle]; }
+    double distance_m(int a, int b) const {
+        const auto place = [&](int index) {
+            const BlockVertex& vertex = block_->vertices[static_cast<std::size_t>(index)];
+            return glm::dvec3{vertex.high[0], vertex.high[1], vertex.high[2]} +
+                   glm::dvec3{vertex.low[0], vertex.low[1], vertex.low[2]};
+        };
+        return glm::distance(place(a), place(b));
     }
 };
 
@@ -75,23 +81,23 @@ TEST_P(SplitVerticesOf, ErrorIsTheGreatestDeviationOfAnyPostFromTheTrianglesAndA
     }
     for (Code code = kRootA; code < kSplitCodesEnd; ++code) {
         const auto at = block_triangles(diagonal_)[code].middle;
-        ASSERT_NEAR(result_.vertices[at].error_m, expected[at], 1e-3) << "code " << code;
+        const double error_m = double{result_[at].error.metres()};
+        ASSERT_GE(error_m, expected[at] - 1e-3) << "code " << code;
+        ASSERT_LE(error_m, expected[at] * (1.0 + 1.0 / 2048.0) + 0.01) << "code " << code;
     }
 }
 
 TEST_P(SplitVerticesOf, BallsHoldTheTriangleAndAreInsideTheParents) {
     for (Code code = kRootA; code < kSplitCodesEnd; ++code) {
         const TriangleVertices& at = block_triangles(diagonal_)[code];
-        const SplitVertex& ball = vertex(code);
-        for (const auto corner : {at.apex, at.left, at.right}) {
-            ASSERT_LE(glm::distance(ball.from_origin_m, result_.vertices[corner].from_origin_m),
-                      ball.radius_m * 1.00001F);
-        }
+        const double radius_m = double{vertex(code).radius.metres()};
+        for (const auto corner : {at.apex, at.left, at.right})
+            ASSERT_LE(distance_m(at.middle, corner), radius_m);
         if (level(code) == 0) continue;
-        const SplitVertex& above = vertex(parent(code));
-        ASSERT_GE(above.error_m, ball.error_m);
-        ASSERT_LE(glm::distance(above.from_origin_m, ball.from_origin_m) + ball.radius_m,
-                  above.radius_m * 1.00001F);
+        const int above = block_triangles(diagonal_)[parent(code)].middle;
+        ASSERT_GE(vertex(parent(code)).error.metres(), vertex(code).error.metres());
+        ASSERT_LE(distance_m(above, at.middle) + radius_m,
+                  double{vertex(parent(code)).radius.metres()} * (1.0 + 1e-6));
     }
 }
 
@@ -99,6 +105,20 @@ INSTANTIATE_TEST_SUITE_P(Tiles, SplitVerticesOf, ::testing::Values(TileId{9, 500
                          [](const auto& tile) {
                              return diagonal_of(tile.param) == Diagonal::Rising ? "Rising" : "Falling";
                          });
+
+TEST(BintreeLengthBound, IsNeverTooSmallAndAtMostA2048thTooGreat) {
+    EXPECT_EQ(LengthBound::of(0.0F).metres(), 0.0F);
+    EXPECT_EQ(LengthBound::of(1e-5F).metres(), 1.0F / 128.0F) << "the least but 0";
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> octave(-6.9F, 23.9F);
+    for (int i = 0; i < 100000; ++i) {
+        const float length_m = std::exp2(octave(random));
+        const float bound_m = LengthBound::of(length_m).metres();
+        ASSERT_GE(bound_m, length_m);
+        ASSERT_LE(double{bound_m}, double{length_m} * (1.0 + 1.0 / 2048.0));
+        ASSERT_EQ(LengthBound::of(bound_m).metres(), bound_m) << "a bound is its own";
+    }
+}
 
 TEST(BintreeArc, IsTheSagittaOfTheBase) {
     // A tile of depth 8 is 180/256 degrees; the base of its root is its diagonal.

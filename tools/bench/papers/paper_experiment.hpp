@@ -1,0 +1,23 @@
+/// What every published experiment is given.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+
+#include <tl/expected.hpp>
+
+#include "tools/bench/papers/paper_table.hpp"
+
+namespace eyepoint::tools {
+
+struct PaperSettings {
+    std::filesystem::path programs;     ///< folder of Eyepoint's programs
+    std::filesystem::path synth_field;  ///< database of eyepoint-terrain synth --benchmark-field
+    double seconds = 30.0;              ///< of flight, at 30 frames a second
+    std::size_t every = 90;             ///< post error is measured in one frame of so many
+};
+
+/// On failure: one sentence.
+using PaperExperiment = tl::expected<PaperTable, std::string> (*)(const PaperSettings& settings);
+
+}  // namespace eyepoint::tools

@@ -1,0 +1,73 @@
+/// eyepoint-bench papers: the experiments of published papers, on Eyepoint's own methods.
+#include <array>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "tools/bench/command_options.hpp"
+#include "tools/bench/goals/goal_line.hpp"
+#include "tools/bench/papers/he_wang_liu.hpp"
+#include "tools/report/page.hpp"
+
+namespace eyepoint::tools {
+
+namespace {
+
+struct Named {
+    const char* doing;
+    PaperExperiment experiment;
+};
+constexpr std::array kExperiments{Named{"He, Wang & Liu, table 1", he_wang_liu_table_1}};
+
+struct PapersRequest {
+    PaperSettings settings;
+    std::filesystem::path results;
+};
+
+void write(const std::filesystem::path& file, const std::string& text) {
+    if (auto written = write_whole(file, text); !written) fail(written.error());
+}
+
+void run(PapersRequest request) {
+    request.settings.programs = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+    const std::string machine = describe_machine();
+    std::vector<PaperTable> tables;
+    for (const Named& named : kExperiments) {
+        fmt::print(stderr, "{} ...\n", named.doing);
+        auto table = named.experiment(request.settings);
+        if (!table) fail(table.error());
+        tables.push_back(std::move(*table));
+    }
+    const std::string page = markdown(tables, machine);
+    fmt::print("{}", page);
+    if (request.results.empty()) return;
+    write(request.results / "papers.md", page);
+    write(request.results / "papers.json", to_json(tables, machine).dump(2) + "\n");
+}
+
+}  // namespace
+
+void add_papers_command(CLI::App& program) {
+    auto request = std::make_shared<PapersRequest>();
+    auto* command = program.add_subcommand(
+        "papers", "Runs the experiments of published papers again: their figures beside ours.");
+    command->add_option("--synth-field", request->settings.synth_field, "synthetic field's database")
+        ->type_name("DB")
+        ->required();
+    command->add_option("--seconds", request->settings.seconds, "of each flight")
+        ->check(CLI::Range(1.0, 600.0))
+        ->capture_default_str();
+    command->add_option("--every", request->settings.every, "measure post error every so-manieth frame")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    command->add_option("-o,--output", request->results, "folder for papers.md and papers.json")
+        ->check(CLI::ExistingDirectory)
+        ->type_name("DIR");
+    command->callback([request] { run(*request); });
+    command->footer(
+        "Make the field once, then measure:\n"
+        "  eyepoint-terrain synth --benchmark-field 16385 -o FIELD\n"
+        "  eyepoint-bench papers --synth-field FIELD -o docs/results");
+}
+
+}  // namespace eyepoint::tools
