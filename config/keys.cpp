@@ -20,6 +20,8 @@ constexpr std::array kTauControls = {"off"sv, "on"sv, "automatic"sv};
 constexpr std::array kShadings = {"forward"sv, "deferred"sv, "automatic"sv};
 constexpr std::array kShows = {"terrain"sv, "wireframe"sv, "levels"sv};
 constexpr std::array kPacings = {"fixed"sv, "free"sv, "host"sv};
+constexpr std::array kLodCaches = {"sound"sv, "four_corner"sv, "off"sv};
+constexpr std::array kScreenErrors = {"bound"sv, "paper"sv};
 constexpr std::array kDrawTimes = {"always"sv, "on_change"sv};
 
 template <typename Enum>
@@ -36,6 +38,10 @@ constexpr std::span<const std::string_view> names_of() {
         return kShows;
     } else if constexpr (std::is_same_v<Enum, Pacing>) {
         return kPacings;
+    } else if constexpr (std::is_same_v<Enum, LodCache>) {
+        return kLodCaches;
+    } else if constexpr (std::is_same_v<Enum, ScreenError>) {
+        return kScreenErrors;
     } else if constexpr (std::is_same_v<Enum, DrawWhen>) {
         return kDrawTimes;
     } else {
@@ -213,7 +219,8 @@ constexpr std::array kKeys = {
                                                "Which of a CIGI host's views this channel draws")),
 
     text(row<kLod, &LodSettings::method>(
-             "lod", "method", "How blocks and their triangles are chosen: nested, regular or bintree"),
+             "lod", "method",
+             "How blocks and their triangles are chosen: nested, regular, bintree or selective"),
          "the name of a method", not_empty),
     number(0.0, 1.0,
            row<kLod, &LodSettings::slack>("lod", "slack",
@@ -226,6 +233,17 @@ constexpr std::array kKeys = {
                                              "Triangles that the method bintree draws at most, spending them "
                                              "where the error is greatest; 0: as "
                                              "many as tau_px asks for")),
+    choice(
+        kLodCaches,
+        row<kLod, &LodSettings::cache>(
+            "lod", "cache",
+            "When the method selective uses a block's vertices again: by the way flown, which holds the "
+            "error to tau_px and the slack; by the test of Ueng & Chuang at the block's corners; or never")),
+    choice(kScreenErrors,
+           row<kLod, &LodSettings::screen_error>(
+               "lod", "screen_error",
+               "What the method selective judges a vertex by: a bound on the error wherever it is felt, or "
+               "the formula of Ueng & Chuang at the vertex")),
 
     choice(kShadings,
            row<kRender, &RenderSettings::shading>(

@@ -14,6 +14,8 @@ enum class TauControl : std::uint8_t { Off, On, Automatic };
 enum class Shading : std::uint8_t { Forward, Deferred, Automatic };
 enum class Show : std::uint8_t { Terrain, Wireframe, Levels };
 enum class Pacing : std::uint8_t { Fixed, Free, Host };
+enum class LodCache : std::uint8_t { Sound, FourCorner, Off };
+enum class ScreenError : std::uint8_t { Bound, Paper };
 enum class DrawWhen : std::uint8_t { Always, OnChange };
 
 struct TerrainSettings {
@@ -48,6 +50,8 @@ struct LodSettings {
     double slack = 0.1;           ///< share of the tolerance that a cached choice may use on top of it, 0..1
     Switch morph = Switch::On;    ///< whether vertices slide from level to level
     std::uint32_t triangles = 0;  ///< of bintree, drawn at most; 0: as many as tau asks for; 0..10000000
+    LodCache cache = LodCache::Sound;               ///< of selective: when a block's selection is kept
+    ScreenError screen_error = ScreenError::Bound;  ///< of selective: what a vertex is judged by
 };
 
 struct RenderSettings {

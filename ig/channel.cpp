@@ -1,5 +1,7 @@
 #include "ig/channel.hpp"
 
+#include <array>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -136,10 +138,18 @@ Show show_of(config::Show show) {
     return Show::Terrain;
 }
 
+terrain::selective::Options selective_options(const config::LodSettings& lod) {
+    using terrain::selective::ErrorFormula, terrain::selective::ReuseTest;
+    constexpr std::array kReuseTests{ReuseTest::Sound, ReuseTest::FourCorner, ReuseTest::Off};
+    return {lod.screen_error == config::ScreenError::Paper ? ErrorFormula::Paper : ErrorFormula::Bound,
+            kReuseTests[static_cast<std::size_t>(lod.cache)]};
+}
+
 SceneOptions scene_options(const config::Settings& settings, const FrameTracks& tracks) {
     SceneOptions options;
     options.lod_method = settings.lod.method;
     options.triangle_budget = settings.lod.triangles;
+    options.selective = selective_options(settings.lod);
     options.tau_px = settings.terrain.tau_px;
     options.slack = settings.lod.slack;
     options.morph = settings.lod.morph == config::Switch::On;

@@ -226,8 +226,9 @@ std::uint64_t TerrainScene::load_all(const View& view) {
 
 tl::expected<std::unique_ptr<Scene>, std::string> Scene::create(
     std::shared_ptr<const terrain::Database> database, const SceneOptions& options) {
-    auto method = terrain::make_lod_method(
-        options.lod_method, {.cull = options.horizon_culling, .triangle_budget = options.triangle_budget});
+    auto method = terrain::make_lod_method(options.lod_method, {.cull = options.horizon_culling,
+                                                                .triangle_budget = options.triangle_budget,
+                                                                .selective = options.selective});
     if (!method)
         return tl::unexpected(fmt::format("no LOD method is called '{}'; there is '{}'", options.lod_method,
                                           fmt::join(terrain::lod_method_names(), "', '")));

@@ -3,11 +3,12 @@
 #include "terrain/lod/bintree/bintree_lod.hpp"
 #include "terrain/lod/nested.hpp"
 #include "terrain/lod/regular.hpp"
+#include "terrain/lod/selective/selective_lod.hpp"
 
 namespace eyepoint::terrain {
 
 namespace {
-constexpr std::array<std::string_view, 3> kNames{"nested", "regular", "bintree"};
+constexpr std::array<std::string_view, 4> kNames{"nested", "regular", "bintree", "selective"};
 }  // namespace
 
 std::span<const std::string_view> lod_method_names() { return kNames; }
@@ -16,6 +17,7 @@ std::unique_ptr<LodMethod> make_lod_method(std::string_view name, const LodMetho
     if (name == kNames[0]) return std::make_unique<NestedLod>(true, options.cull);
     if (name == kNames[1]) return std::make_unique<RegularLod>();
     if (name == kNames[2]) return std::make_unique<BintreeLod>(options.triangle_budget);
+    if (name == kNames[3]) return std::make_unique<SelectiveLod>(options.selective);
     return nullptr;
 }
 

@@ -12,6 +12,7 @@
 #include <glm/vec3.hpp>
 
 #include "terrain/geodesy/position.hpp"
+#include "terrain/lod/selective/selective_options.hpp"
 #include "terrain/pager/pager.hpp"
 
 namespace eyepoint::terrain {
@@ -103,6 +104,7 @@ struct LodMethodOptions {
     bool cull = false;
     /// Triangles drawn at most, the tolerance being exceeded where they do not suffice; bintree. 0: no limit.
     std::uint32_t triangle_budget = 0;
+    selective::Options selective{};
 };
 /// nullptr for an unknown name.
 [[nodiscard]] std::unique_ptr<LodMethod> make_lod_method(std::string_view name,

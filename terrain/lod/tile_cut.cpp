@@ -78,9 +78,9 @@ double TileCut::seen_from_side(const TileBounds& bounds) const {
 
 /// Too coarse in shape, or its picture too coarse where there is a finer one.
 bool TileCut::too_coarse(const TileNode& node) const {
-    const double texel_px =
-        view_.kappa_px * node.texel_to_refine_m / std::max(node.mark.distance_m, view_.near_m);
-    return error_px(node, 0) > tau_px_ || texel_px > kMostPixelsATexel;
+    const double px_a_metre = view_.kappa_px / std::max(node.mark.distance_m, view_.near_m);
+    if (error_px(node, 0) > tau_px_ || px_a_metre * node.texel_to_refine_m > kMostPixelsATexel) return true;
+    return excess_ && px_a_metre * (node.info.delta_m[0] + excess_(node)) > tau_px_;
 }
 
 /// The leaf of the cut that covers a tile, or the tile's own node when the cut goes deeper there.

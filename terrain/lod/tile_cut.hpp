@@ -3,7 +3,9 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "terrain/lod/lod_method.hpp"
@@ -12,15 +14,22 @@
 namespace eyepoint::terrain {
 
 /// From the roots down, a visible tile is split when its finest level is too coarse for the view:
-/// kappa * delta_0 / D > tau, or when its picture's texels cover more than two pixels and there are finer
-/// pictures below. A split needs the four children loaded (else they are wished for and the tile is drawn in
-/// their place), and no edge neighbour that is drawn and less deep (else that is split first): so neighbours
-/// in the cut differ by one depth at most.
+/// kappa * delta_0 / D > tau (delta_0 plus what the method's triangulation adds), or when its picture's
+/// texels cover more than two pixels and there are finer pictures below. A split needs the four children
+/// loaded (else they are wished for and the tile is drawn in their place), and no edge neighbour that is
+/// drawn and less deep (else that is split first): so neighbours in the cut differ by one depth at most.
 /// Tiles outside the view or hidden by the curve of the Earth are not drawn and set no conditions: an edge
 /// shared with them is not seen.
 /// Uses TileNode::mark. Thread use: the frame's.
 class TileCut {
   public:
+    /// What a tile's own triangulation of all its posts errs by beyond delta_0, metres.
+    using Excess = std::function<double(const TileNode&)>;
+
+    TileCut() = default;
+    /// excess: of a tile whose block is loaded.
+    explicit TileCut(Excess excess) : excess_(std::move(excess)) {}
+
     /// tau_px: what a tile's finest level may err by. The tree must outlive the next update.
     void update(const LodView& view, double tau_px, TileTree& tree, std::uint64_t frame);
 
@@ -50,6 +59,7 @@ class TileCut {
     [[nodiscard]] bool have_children(TileNode& node, double priority);
     void keep_ready(TileId tile, double priority);
 
+    Excess excess_;
     LodView view_;
     double tau_px_ = 1.0;
     TileTree* tree_ = nullptr;

@@ -114,15 +114,20 @@ TEST(SampleFlightHasNoCracks, WhileBlocksAreArriving) {
 }
 
 /// By a method that makes the blocks' triangles anew: what is drawn are the lists of this frame.
-TEST(SampleFlightHasNoCracks, WithBintreesCompleteAndWhileBlocksAreArriving) {
+class OwnTriangles : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(OwnTriangles, SampleFlightHasNoCracksCompleteAndWhileBlocksAreArriving) {
     ig::SceneOptions options = sentinel_options();
-    options.lod_method = "bintree";
+    options.lod_method = GetParam();
     const auto eyes = eyes_of(sample_flight(), kSmall, kSampleRateHz);
     Renderer renderer(open_synthetic_terrain(), kSmall, options);
     const std::vector<ig::FlightEye> first(eyes.begin(), eyes.begin() + 60);
-    EXPECT_GT(sweep(renderer, first, 1, Loading::AsTheyArrive, "bintree-streaming").frames_loading, 5);
-    EXPECT_GE(sweep(renderer, eyes, 30, Loading::Complete, "bintree").frames, 50);
+    EXPECT_GT(sweep(renderer, first, 1, Loading::AsTheyArrive, GetParam() + "-streaming").frames_loading, 5);
+    EXPECT_GE(sweep(renderer, eyes, 30, Loading::Complete, GetParam()).frames, 50);
 }
+
+INSTANTIATE_TEST_SUITE_P(Methods, OwnTriangles, ::testing::Values("bintree", "selective"),
+                         [](const auto& instance) { return instance.param; });
 
 /// Real terrain from SRTM over a global DEM, made once for all tests of this file that need it.
 class RealFlightHasNoCracks : public ::testing::Test {

@@ -132,7 +132,9 @@ INSTANTIATE_TEST_SUITE_P(Earth, Horizon,
                                            Ground{"South60AntimeridianRegular", -60.0, 179.9999, "regular"},
                                            Ground{"NorthPoleRegular", 89.995, 120.0, "regular"},
                                            Ground{"North47Bintree", 47.0, 8.0, "bintree"},
-                                           Ground{"NorthPoleBintree", 89.995, 120.0, "bintree"}),
+                                           Ground{"NorthPoleBintree", 89.995, 120.0, "bintree"},
+                                           Ground{"North47Selective", 47.0, 8.0, "selective"},
+                                           Ground{"NorthPoleSelective", 89.995, 120.0, "selective"}),
                          [](const auto& instance) { return instance.param.name; });
 
 }  // namespace

@@ -63,7 +63,9 @@ INSTANTIATE_TEST_SUITE_P(Ways, StillMesh,
                                            Way{"RegularDeferred", "regular", ig::Shading::Deferred},
                                            Way{"RegularForward", "regular", ig::Shading::Forward},
                                            Way{"BintreeDeferred", "bintree", ig::Shading::Deferred},
-                                           Way{"BintreeForward", "bintree", ig::Shading::Forward}),
+                                           Way{"BintreeForward", "bintree", ig::Shading::Forward},
+                                           Way{"SelectiveDeferred", "selective", ig::Shading::Deferred},
+                                           Way{"SelectiveForward", "selective", ig::Shading::Forward}),
                          [](const auto& instance) { return instance.param.name; });
 
 }  // namespace

@@ -101,9 +101,10 @@ std::vector<terrain::LodView> views_of(std::span<const ig::FlightEye> eyes, cons
     return views;
 }
 
-ProvenFlight::ProvenFlight(std::shared_ptr<const terrain::Database> database, const std::string& lod_method)
+ProvenFlight::ProvenFlight(std::shared_ptr<const terrain::Database> database,
+                           const tools::FlightOptions& options)
     : database_(std::move(database)),
-      flight_(value_or_throw(tools::LodFlight::create(database_, {.lod_method = lod_method}))),
+      flight_(value_or_throw(tools::LodFlight::create(database_, options))),
       surface_(database_) {}
 
 Findings ProvenFlight::fly(std::span<const terrain::LodView> views, const tools::MeasureOptions& options) {

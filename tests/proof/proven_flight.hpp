@@ -61,7 +61,7 @@ class ProvenFlight {
   public:
     /// Throws std::runtime_error.
     explicit ProvenFlight(std::shared_ptr<const terrain::Database> database,
-                          const std::string& lod_method = "nested");
+                          const tools::FlightOptions& options = {});
 
     /// Flies all views, with everything loaded, and looks at one in `every`. Throws std::runtime_error.
     [[nodiscard]] Findings fly(std::span<const terrain::LodView> views, const tools::MeasureOptions& options);

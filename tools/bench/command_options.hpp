@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "terrain/lod/selective/selective_options.hpp"
 #include "tools/bench/bench_run.hpp"
 
 namespace eyepoint::tools {
@@ -15,8 +16,11 @@ namespace eyepoint::tools {
 /// --size WIDTHxHEIGHT. `size` outlives the parsing.
 void add_size_option(CLI::App& command, ig::PictureSize& size);
 
-/// --terrain, --size, --tau, --lod, --pictures, --every, --record, --sentinel. `options` outlives the
-/// parsing.
+/// --cache, --screen-error. `options` outlives the parsing.
+void add_selective_options(CLI::App& command, terrain::selective::Options& options);
+
+/// --terrain, --size, --tau, --lod, --triangles, --cache, --screen-error, --pictures, --every, --record,
+/// --sentinel. `options` outlives the parsing.
 void add_drawing_options(CLI::App& command, BenchOptions& options, bool terrain_required);
 
 void add_flight_command(CLI::App& program);

@@ -1,5 +1,7 @@
 /// eyepoint-bench: what drawing costs, in numbers that can be compared.
 #include <cstdlib>
+#include <map>
+#include <string>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -30,6 +32,22 @@ void add_size_option(CLI::App& command, ig::PictureSize& size) {
         ->default_str(fmt::format("{}x{}", size.width_px, size.height_px));
 }
 
+void add_selective_options(CLI::App& command, terrain::selective::Options& options) {
+    using terrain::selective::ErrorFormula, terrain::selective::ReuseTest;
+    static const std::map<std::string, ReuseTest> tests{
+        {"sound", ReuseTest::Sound}, {"four_corner", ReuseTest::FourCorner}, {"off", ReuseTest::Off}};
+    static const std::map<std::string, ErrorFormula> formulas{{"bound", ErrorFormula::Bound},
+                                                              {"paper", ErrorFormula::Paper}};
+    command
+        .add_option("--cache", options.reuse,
+                    "selective alone: the test by which a block's vertices are used again")
+        ->transform(CLI::CheckedTransformer(tests))
+        ->option_text("sound|four_corner|off");
+    command.add_option("--screen-error", options.error, "selective alone: what a vertex is judged by")
+        ->transform(CLI::CheckedTransformer(formulas))
+        ->option_text("bound|paper");
+}
+
 void add_drawing_options(CLI::App& command, BenchOptions& options, bool terrain_required) {
     auto* terrain = command.add_option("--terrain", options.terrain, "terrain database")->type_name("DB");
     if (terrain_required) terrain->required();
@@ -40,6 +58,7 @@ void add_drawing_options(CLI::App& command, BenchOptions& options, bool terrain_
     command.add_option("--lod", options.scene.lod_method, "level-of-detail method")->capture_default_str();
     command.add_option("--triangles", options.scene.triangle_budget,
                        "bintree alone: triangles a frame at most; 0: no limit");
+    add_selective_options(command, options.scene.selective);
     command.add_option("--visibility", options.scene.visibility_m, "metres")->capture_default_str();
     command.add_option("--pictures", options.pictures, "folder for pictures")->type_name("DIR");
     command.add_option("--every", options.picture_every, "a picture every so many frames")

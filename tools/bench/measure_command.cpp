@@ -152,6 +152,7 @@ void add_measuring(CLI::App& command, MeasureRequest& request) {
                      "measure what selection does, not the mesh: no post error, no jumps, no cracks");
     command.add_option("--triangles", request.flight.triangle_budget,
                        "bintree alone: triangles a frame at most; 0: no limit");
+    add_selective_options(command, request.flight.selective);
     command.add_option("--every", request.options.every, "measure every so-manieth frame")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();

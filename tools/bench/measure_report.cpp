@@ -34,6 +34,27 @@ std::string posts_table(const FlightFigures& figures) {
     return text;
 }
 
+std::string audit_table(const FlightFigures& figures) {
+    const terrain::SelectionAudit& audit = figures.audit;
+    const auto frames = static_cast<double>(figures.measured_frames);
+    return fmt::format(
+        "vertices selected           mean {:.0f}; missed {:.1f} ({:.2f}%), above tau + slack {:.1f}, worst "
+        "{:.3f} px\n"
+        "  triangles in dikes        mean {:.0f}\n",
+        static_cast<double>(audit.selected) / frames, static_cast<double>(audit.missed) / frames,
+        100.0 * static_cast<double>(audit.missed) / static_cast<double>(audit.selected),
+        static_cast<double>(audit.too_far) / frames, audit.worst_px,
+        static_cast<double>(audit.dike_triangles) / frames);
+}
+
+nlohmann::json to_json(const terrain::SelectionAudit& audit) {
+    return {{"selected", audit.selected},
+            {"missed", audit.missed},
+            {"above_tau_and_slack", audit.too_far},
+            {"worst_px", audit.worst_px},
+            {"dike_triangles", audit.dike_triangles}};
+}
+
 nlohmann::json to_json(const PixelDistribution& pixels) {
     return {{"count", pixels.count()},
             {"max_px", pixels.maximum()},
@@ -83,6 +104,7 @@ std::string describe(const FlightFigures& figures) {
                         figures.frames_allocating);
     text += fmt::format("uploads, KiB a frame        {:.1f}; frames with something not loaded {}\n",
                         figures.uploaded_kib_mean, figures.frames_wishing);
+    if (figures.audit.selected > 0) text += audit_table(figures);
     return text + posts_table(figures);
 }
 
@@ -108,7 +130,8 @@ nlohmann::json to_json(const FlightFigures& figures) {
             {"posts", to_json(figures.posts)},
             {"worst_frame_p999_px", figures.worst_frame_p999_px},
             {"pops", to_json(figures.pops)},
-            {"mesh", to_json(figures.faults)}};
+            {"mesh", to_json(figures.faults)},
+            {"audit", to_json(figures.audit)}};
 }
 
 nlohmann::json to_json(const FrameMeasure& frame) {

@@ -41,6 +41,8 @@ class Lap {
 
         const DrawnMesh mesh = drawn_mesh(selection, flight_.method(), views_[frame], options_.morph);
         result.measured = measured;
+        if (const auto* selective = dynamic_cast<const terrain::SelectiveLod*>(&flight_.method()))
+            result.audit = selective->audit(views_[frame]);
         result.empty_triangles = mesh.empty_triangles;
         if (measured && options_.faults) result.faults = find_mesh_faults(mesh);
         if (!options_.posts) return result;
@@ -128,6 +130,7 @@ FlightFigures summarise(std::span<const FrameMeasure> frames) {
         sum.faults.borders += frame.faults.borders;
         sum.faults.cracks += frame.faults.cracks;
         sum.faults.overlaps += frame.faults.overlaps;
+        sum.audit.merge(frame.audit);
     }
     const auto count = static_cast<double>(frames.size());
     sum.reused_share = in_view > 0.0 ? reused / in_view : 0.0;

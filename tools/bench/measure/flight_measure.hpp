@@ -10,6 +10,7 @@
 
 #include <tl/expected.hpp>
 
+#include "terrain/lod/selective/selective_lod.hpp"
 #include "tools/bench/measure/flight.hpp"
 #include "tools/bench/measure/mesh_faults.hpp"
 #include "tools/bench/measure/post_error.hpp"
@@ -41,6 +42,7 @@ struct FrameMeasure {
     PostFigures posts;
     PixelDistribution pops;
     MeshFaults faults;
+    terrain::SelectionAudit audit;  ///< selective alone
 };
 
 /// Called for measured frames, with what post error was worked out from.
@@ -77,6 +79,7 @@ struct FlightFigures {
     double worst_frame_p999_px = 0.0;
     PixelDistribution pops;
     MeshFaults faults;
+    terrain::SelectionAudit audit;  ///< of measured frames, in sum
 };
 [[nodiscard]] FlightFigures summarise(std::span<const FrameMeasure> frames);
 

@@ -1,0 +1,207 @@
+#include "terrain/lod/selective/selective_lod.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+
+#include <glm/geometric.hpp>
+
+#include "terrain/lod/selective/dike.hpp"
+#include "terrain/lod/selective/screen_error.hpp"
+#include "terrain/tiling/tile_edges.hpp"
+
+namespace eyepoint::terrain {
+
+using selective::BorderSelection;
+using selective::kRanks;
+using selective::Rank;
+using selective::ReuseTest;
+
+namespace {
+
+/// What a block may use of the tolerance where it is drawn with all its posts; the rest is its selection's.
+/// The less, the more blocks and the fewer triangles.
+constexpr double kBlockShare = 0.7;
+
+/// Beside the bits of selective::EdgeVertices.
+constexpr std::uint32_t kDike = 1;
+
+/// Left of what a selection stands for after it was worked out in floats.
+constexpr double kStandingKept = 0.999;
+
+/// Blocks that are not drawn keep their selection so long, and are looked for so often.
+constexpr std::uint64_t kHeldFrames = 120, kDropEvery = 32;
+
+Ecef corner(const Block& block, int row, int column) {
+    const BlockVertex& vertex = block.vertices[static_cast<std::size_t>(row * kBlockPosts + column)];
+    return {double{vertex.high[0]} + double{vertex.low[0]}, double{vertex.high[1]} + double{vertex.low[1]},
+            double{vertex.high[2]} + double{vertex.low[2]}};
+}
+
+}  // namespace
+
+const Selection& SelectiveLod::select(const LodView& view, TileTree& tree, std::uint64_t frame) {
+    cut_.update(view, kBlockShare * view.tau_px, tree, frame);
+    odometer_m_ += glm::distance(view.eye, eye_);
+    eye_ = view.eye;
+    collect(frame);
+    select_vertices(view);
+    make_dikes();
+    emit();
+    return selection_;
+}
+
+/// Nothing is drawn finer than tiles without children: their posts are the surface itself.
+float SelectiveLod::twist_m(const TileNode& node) {
+    if (!node.info.has_children) return 0.0F;
+    const auto [known, fresh] = twists_m_.try_emplace(node.tile, 0.0F);
+    if (fresh) known->second = selective::twist_m(node.block->data);
+    return known->second;
+}
+
+/// The cut's leaves, near to far.
+void SelectiveLod::collect(std::uint64_t frame) {
+    if (frame % kDropEvery == 0) drop_unused(frame);
+    drawn_.clear();
+    for (TileNode* node : cut_.leaves()) {
+        std::unique_ptr<Held>& block = blocks_[node->tile];
+        if (!block) block = hold(*node);
+        block->used_frame = frame;
+        drawn_.push_back(block.get());
+    }
+    std::sort(drawn_.begin(), drawn_.end(), [](const Held* a, const Held* b) {
+        return a->node->mark.distance_m < b->node->mark.distance_m;
+    });
+}
+
+void SelectiveLod::drop_unused(std::uint64_t frame) {
+    std::erase_if(blocks_, [&](const auto& entry) { return entry.second->used_frame + kHeldFrames < frame; });
+}
+
+std::unique_ptr<SelectiveLod::Held> SelectiveLod::hold(TileNode& node) {
+    auto block = std::make_unique<Held>();
+    block->node = &node;
+    block->posts = selective::block_posts(*node.block, node.info.delta_m[0] + twist_m(node));
+    block->corners = {corner(*node.block, 0, 0), corner(*node.block, 0, kBlockCells),
+                      corner(*node.block, kBlockCells, 0), corner(*node.block, kBlockCells, kBlockCells)};
+    return block;
+}
+
+void SelectiveLod::select_vertices(const LodView& view) {
+    selection_.blocks_chosen = selection_.blocks_reused = 0;
+    for (Held* block : drawn_) {
+        block->changed = !stands(*block, view);
+        if (block->changed) select_anew(*block, view);
+        ++(block->changed ? selection_.blocks_chosen : selection_.blocks_reused);
+    }
+}
+
+bool SelectiveLod::stands(const Held& block, const LodView& view) const {
+    if (options_.reuse == ReuseTest::Off || !selective::same_scale(block.selected_for, view)) return false;
+    if (options_.reuse == ReuseTest::Sound) return odometer_m_ <= block.selected_for.stands_to_m;
+    const TileNode& node = *block.node;
+    const bool outside = node.mark.distance_m > 0.0 && distance_m(node.bounds, block.selected_for.eye) > 0.0;
+    return outside && selective::four_corner_test(options_.error, block.corners, glm::dvec3{block.posts.up},
+                                                  block.selected_for, view.eye);
+}
+
+void SelectiveLod::select_anew(Held& block, const LodView& view) {
+    selective::test_posts(options_.error, block.posts,
+                          selective::block_view(view, block.posts, block.node->mark.distance_m), tested_);
+    block.mesh.indices.clear();
+    block.selection.select(tested_, block.mesh.indices);
+    block.own_indices = block.mesh.indices.size();
+    block.selected_for = {view.eye, view.kappa_px, view.tau_px, view.slack_px,
+                          odometer_m_ + kStandingKept * static_cast<double>(block.selection.stands_for_m())};
+}
+
+/// A dike is made of vertices that one block has, all of them, so it is drawn with that block's: of two of
+/// one depth the western or southern one's; of two depths the finer one's, whose posts the coarser one's are.
+/// Only where a coarser block leaves out the vertex in which two finer ones meet on its edge, it has a dike
+/// up to that.
+SelectiveLod::FarSides SelectiveLod::far_sides(const Held& block) const {
+    FarSides far{};
+    const TileNode& node = *block.node;
+    for (const Edge edge : kEdges) {
+        const auto across = cut_.across(node, edge);
+        const auto at = static_cast<std::size_t>(edge),
+                   opposite_at = static_cast<std::size_t>(opposite(edge));
+        if (across[0] != across[1]) {
+            far[at] = block.selection.border()[at] | selective::kMiddleVertex | kDike;
+            continue;
+        }
+        if (across[0] == nullptr) continue;
+        const std::uint32_t beyond = held(*across[0]).selection.border()[opposite_at];
+        if (across[0]->tile.depth == node.tile.depth) {
+            if (edge == Edge::East || edge == Edge::North) far[at] = beyond | kDike;
+            continue;
+        }
+        const bool upright = edge == Edge::West || edge == Edge::East;
+        const int half = static_cast<int>((upright ? node.tile.y : node.tile.x) & 1U);
+        far[at] = selective::half_of_edge(beyond, half) | kDike;
+    }
+    return far;
+}
+
+void SelectiveLod::make_dikes() {
+    for (std::size_t i = 0; i < drawn_.size(); ++i)
+        drawn_[i]->node->mark.draw = static_cast<std::uint32_t>(i);
+    for (Held* block : drawn_) {
+        const FarSides far = far_sides(*block);
+        if (!block->changed && far == block->far_sides) continue;
+        block->far_sides = far;
+        block->mesh.indices.resize(block->own_indices);
+        for (std::size_t edge = 0; edge < far.size(); ++edge) {
+            if (far[edge] == 0) continue;
+            selective::append_dike(kEdges[edge], block->selection.border()[edge], far[edge] & ~kDike,
+                                   block->node->block->data, block->mesh.indices);
+        }
+        block->mesh.version = ++version_;
+    }
+}
+
+void SelectiveLod::emit() {
+    selection_.draws.clear();
+    selection_.wishes = cut_.wishes();
+    selection_.triangles = 0;
+    selection_.blocks_tested = cut_.tested();
+    for (const Held* block : drawn_) {
+        const auto count = static_cast<std::uint32_t>(block->mesh.indices.size());
+        // The fewer triangles, the higher the level, as with other methods.
+        const auto level = static_cast<std::uint8_t>(selective::kLevels + 1 - std::bit_width(count / 3));
+        selection_.draws.push_back({block->node, {0, count}, level, {}, &block->mesh});
+        selection_.triangles += count / 3;
+    }
+}
+
+SelectionAudit SelectiveLod::audit(const LodView& view) const {
+    SelectionAudit sum;
+    selective::TestedPosts at_tau;
+    for (const Held* block : drawn_) {
+        const selective::BlockView from =
+            selective::block_view(view, block->posts, block->node->mark.distance_m);
+        selective::test_posts(options_.error, block->posts, from, at_tau);
+        sum.dike_triangles += (block->mesh.indices.size() - block->own_indices) / 3;
+        for (Rank rank = 0; rank < kRanks; ++rank) {
+            if (block->selection.active(rank)) {
+                ++sum.selected;
+                continue;
+            }
+            const double error_px = selective::error_px(options_.error, block->posts, rank, from);
+            sum.worst_px = std::max(sum.worst_px, error_px);
+            if (at_tau.passes_by[rank] < 0.0F) ++sum.missed;
+            if (error_px > view.tau_px + view.slack_px) ++sum.too_far;
+        }
+    }
+    return sum;
+}
+
+void SelectionAudit::merge(const SelectionAudit& other) {
+    selected += other.selected;
+    missed += other.missed;
+    too_far += other.too_far;
+    worst_px = std::max(worst_px, other.worst_px);
+    dike_triangles += other.dike_triangles;
+}
+
+}  // namespace eyepoint::terrain
