@@ -44,6 +44,10 @@ struct BlockVertex {
         const std::uint32_t field = rest >> kGoneShift & kStaysField;
         return field == kStaysField ? NestedMesh::kStays : static_cast<std::uint8_t>(field);
     }
+    [[nodiscard]] Ecef position() const {
+        return {double{high[0]} + double{low[0]}, double{high[1]} + double{low[1]},
+                double{high[2]} + double{low[2]}};
+    }
     [[nodiscard]] double height_msl_m() const;
     /// The tile's edges that it is on: 1 west, 2 east, 4 south, 8 north.
     [[nodiscard]] std::uint8_t sides() const;

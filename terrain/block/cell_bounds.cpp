@@ -122,10 +122,7 @@ class Places {
 
     [[nodiscard]] glm::vec3 local(std::uint32_t number) {
         if (!known_[number]) {
-            const BlockVertex& vertex = at(number);
-            locals_[number] = local(Ecef{double{vertex.high[0]} + double{vertex.low[0]},
-                                         double{vertex.high[1]} + double{vertex.low[1]},
-                                         double{vertex.high[2]} + double{vertex.low[2]}});
+            locals_[number] = local(at(number).position());
             known_[number] = true;
         }
         return locals_[number];

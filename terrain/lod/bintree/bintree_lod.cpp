@@ -8,6 +8,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "terrain/lod/triangle_arc.hpp"
+
 namespace eyepoint::terrain {
 
 using bintree::Across;
@@ -193,7 +195,7 @@ BintreeLod::Judgement BintreeLod::judge(const Active& block, const LodView& view
     std::array<double, kFinestLevel> least_reach_m{};
     for (int level = 0; level < kFinestLevel; ++level)
         least_reach_m[static_cast<std::size_t>(level)] =
-            view.kappa_px / kHorizonPx * bintree::arc_height_m(node.tile.depth, level);
+            view.kappa_px / kHorizonPx * arc_height_m(node.tile.depth, level);
 
     Judgement result{{}, std::numeric_limits<double>::max()};
     std::array<Code, kFinestLevel + 2> stack{bintree::kRootA, bintree::kRootB};

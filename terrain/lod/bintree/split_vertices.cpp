@@ -8,7 +8,6 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include "terrain/geodesy/earth.hpp"
 #include "terrain/lod/bintree/block_triangles.hpp"
 
 namespace eyepoint::terrain::bintree {
@@ -101,12 +100,6 @@ SplitVertices split_vertices(const Block& block) {
         }
     }
     return result;
-}
-
-double arc_height_m(std::uint32_t depth, int level) {
-    constexpr double kPi = 3.14159265358979323846;
-    const double base_rad = tile_side_deg(depth) * kPi / 180.0 * std::sqrt(2.0) * std::pow(0.5, level / 2.0);
-    return kEquatorialRadiusM * (1.0 - std::cos(std::min(base_rad, kPi) / 2.0));
 }
 
 }  // namespace eyepoint::terrain::bintree

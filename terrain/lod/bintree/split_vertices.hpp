@@ -25,8 +25,4 @@ using SplitVertices = std::array<SplitVertex, kBlockVertices>;
 /// Deviations are true ones, of every post from every triangle; the block must be a grid's.
 [[nodiscard]] SplitVertices split_vertices(const Block& block);
 
-/// Height of the Earth's arc over the base of a triangle of a level, at the equator where it is greatest,
-/// metres: what the triangle errs by on a bare Earth.
-[[nodiscard]] double arc_height_m(std::uint32_t depth, int level);
-
 }  // namespace eyepoint::terrain::bintree

@@ -6,16 +6,11 @@
 
 #include <glm/geometric.hpp>
 
-#include "terrain/geodesy/earth.hpp"
+#include "terrain/lod/triangle_arc.hpp"
 
 namespace eyepoint::terrain::selective {
 
 namespace {
-
-Ecef position(const BlockVertex& vertex) {
-    return {double{vertex.high[0]} + double{vertex.low[0]}, double{vertex.high[1]} + double{vertex.low[1]},
-            double{vertex.high[2]} + double{vertex.low[2]}};
-}
 
 class Heights {
   public:
@@ -81,18 +76,11 @@ class Heights {
     std::array<float, kBlockVertices> heights_m_{};
 };
 
-/// Height of the Earth's arc over the base of a triangle of a level, at the equator, where it is greatest.
-double arc_height_m(std::uint32_t depth, int level) {
-    constexpr double kPi = 3.14159265358979323846;
-    const double base_rad = tile_side_deg(depth) * kPi / 180.0 * std::pow(0.5, (level - 1) / 2.0);
-    return kEquatorialRadiusM * (1.0 - std::cos(std::min(base_rad, kPi) / 2.0));
-}
-
 /// Fills in a block's posts triangle by triangle; each has the vertex of the middle of its base.
 class Maker {
   public:
     Maker(const Block& block, float unseen_m) : block_(block), heights_(block.data), unseen_m_(unseen_m) {
-        posts_.origin = position(block.vertices[kBlockVertices / 2]);
+        posts_.origin = block.vertices[kBlockVertices / 2].position();
         posts_.up = glm::vec3{glm::normalize(posts_.origin)};
         for (int level = 0; level < kLevels; ++level)
             arcs_m_[static_cast<std::size_t>(level)] =
@@ -130,7 +118,7 @@ class Maker {
     }
 
     [[nodiscard]] glm::vec3 from_origin_m(std::uint16_t post) const {
-        return glm::vec3{position(block_.vertices[post]) - posts_.origin};
+        return glm::vec3{block_.vertices[post].position() - posts_.origin};
     }
 
     const DependencyHierarchy& hierarchy_ = DependencyHierarchy::of_block();

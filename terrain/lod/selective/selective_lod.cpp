@@ -33,9 +33,7 @@ constexpr double kStandingKept = 0.999;
 constexpr std::uint64_t kHeldFrames = 120, kDropEvery = 32;
 
 Ecef corner(const Block& block, int row, int column) {
-    const BlockVertex& vertex = block.vertices[static_cast<std::size_t>(row * kBlockPosts + column)];
-    return {double{vertex.high[0]} + double{vertex.low[0]}, double{vertex.high[1]} + double{vertex.low[1]},
-            double{vertex.high[2]} + double{vertex.low[2]}};
+    return block.vertices[static_cast<std::size_t>(row * kBlockPosts + column)].position();
 }
 
 }  // namespace

@@ -8,18 +8,11 @@
 #include <gtest/gtest.h>
 
 #include "terrain/lod/bintree/block_triangles.hpp"
+#include "terrain/lod/triangle_arc.hpp"
+#include "tests/terrain/lod/rough_block.hpp"
 
 namespace eyepoint::terrain::bintree {
 namespace {
-
-std::shared_ptr<const Block> rough_block(TileId tile) {
-    BlockData data;
-    data.tile = tile;
-    std::mt19937 random(7);
-    std::uniform_real_distribution<float> height_m(0.0F, 900.0F);
-    for (float& height : data.heights_m) height = height_m(random);
-    return unfold(data, std::nullopt);
-}
 
 struct Triangle {
     Corners at;
@@ -36,7 +29,7 @@ struct Triangle {
 
 class SplitVerticesOf : public ::testing::TestWithParam<TileId> {
   protected:
-    std::shared_ptr<const Block> block_ = rough_block(GetParam());
+    std::shared_ptr<const Block> block_ = testing::rough_block(GetParam());
     SplitVertices result_ = split_vertices(*block_);
     Diagonal diagonal_ = diagonal_of(GetParam());
 

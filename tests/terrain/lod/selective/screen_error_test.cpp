@@ -8,25 +8,12 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "tests/terrain/lod/rough_block.hpp"
+
 namespace eyepoint::terrain::selective {
 namespace {
 
-std::shared_ptr<const Block> rough_block(TileId tile) {
-    BlockData data;
-    data.tile = tile;
-    std::mt19937 random(7);
-    std::uniform_real_distribution<float> height_m(0.0F, 900.0F);
-    for (float& height : data.heights_m) height = height_m(random);
-    return unfold(data, std::nullopt);
-}
-
 constexpr TileId kTile{12, 4283, 3072};
-
-Ecef position(const Block& block, std::size_t post) {
-    const BlockVertex& vertex = block.vertices[post];
-    return {double{vertex.high[0]} + double{vertex.low[0]}, double{vertex.high[1]} + double{vertex.low[1]},
-            double{vertex.high[2]} + double{vertex.low[2]}};
-}
 
 /// Weights of a triangle's corners at a post: barycentric, by areas.
 glm::dvec3 weights(const TreeTriangle& triangle, int post) {
@@ -43,7 +30,7 @@ glm::dvec3 weights(const TreeTriangle& triangle, int post) {
 
 class ScreenError : public ::testing::Test {
   protected:
-    std::shared_ptr<const Block> block_ = rough_block(kTile);
+    std::shared_ptr<const Block> block_ = testing::rough_block(kTile);
     static constexpr float kUnseenM = 3.0F;
     BlockPosts posts_ = block_posts(*block_, kUnseenM);
 
@@ -90,7 +77,7 @@ TEST_F(ScreenError, BoundHoldsAtEveryPostOfTheTrianglesAndTheBallHoldsThem) {
                                    share.y * height_m(triangle.vertices[1]) +
                                    share.z * height_m(triangle.vertices[2]);
             greatest_m = std::max(greatest_m, std::abs(height_m(post) - plane_m));
-            const glm::dvec3 at = position(*block_, static_cast<std::size_t>(post)) - posts_.origin;
+            const glm::dvec3 at = block_->vertices[static_cast<std::size_t>(post)].position() - posts_.origin;
             EXPECT_LE(glm::distance(at, middle), posts_.radius_m[triangle.middle] + 0.01);
         }
         EXPECT_GE(posts_.bound_m[triangle.middle], greatest_m + kUnseenM);
