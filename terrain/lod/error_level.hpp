@@ -40,8 +40,8 @@ inline constexpr double kLevelReachM = 1.0 / 8.0;
 }
 
 /// Of a tolerance, the share that levels are chosen by. The rest covers what the compiler does not check:
-/// vertices that slide by unequal shares, samples between the checked places of a slide (docs/lod.md).
-inline constexpr double kToleranceShare = 0.84;
+/// triangles of two levels, errors while vertices slide by unequal shares (docs/lod.md).
+inline constexpr double kToleranceShare = 0.97;
 
 /// Level that a tolerance allows at a distance D: lambda = 2 log2(D * scale), a real number, below 0 where
 /// even level 0 is too coarse. A vertex may go at level k when all of the ground within its reach is so far

@@ -50,11 +50,11 @@ struct CollapseResult {
 };
 
 /// At every level L the mesh is nowhere farther from the samples than kMeshShare * E_L, new triangles have no
-/// side longer than level_reach_m(L), and at the quarters of every slide errors are within those of the level
-/// between. No collapse folds a triangle, neither now nor when the edges' own collapses follow at this or any
-/// later level: so those never need to be refused. Two exceptions go beyond errors and sides: where a
-/// triangle of the request's mesh is in the way of an edge's vertex, and where more vertices would be left
-/// than the parent can take.
+/// side longer than level_reach_m(L), and slides, the edges' own too, are as slide.hpp has it, with the error
+/// of the level between. No collapse folds a triangle, neither now nor when the edges' own collapses follow
+/// at this or any later level: so those never need to be refused. Two exceptions go beyond errors and sides:
+/// where a triangle of the request's mesh is in the way of an edge's vertex, and where more vertices would be
+/// left than the parent can take.
 [[nodiscard]] CollapseResult collapse(const CollapseRequest& request, const SampledSurface& surface);
 
 }  // namespace eyepoint::tools

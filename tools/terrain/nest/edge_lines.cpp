@@ -6,6 +6,7 @@
 #include <mutex>
 #include <optional>
 #include <queue>
+#include <set>
 #include <tuple>
 #include <unordered_set>
 #include <utility>
@@ -24,7 +25,7 @@ using namespace terrain;
 namespace {
 
 /// Of a level's error, what a line may use: the rest is left to the meshes beside it.
-constexpr double kLineShare = 0.9;
+constexpr double kLineShare = 0.95;
 
 /// A line while it is made: its vertices, where they are, and the level it has been simplified to.
 struct Line {
@@ -87,7 +88,8 @@ class LineCollapse {
             const Candidate next = queue_.top();
             queue_.pop();
             if (next.version != version_[next.vertex]) continue;
-            if (targets_.contains(next.vertex) || line_.pinned[next.vertex] >= level) {
+            if (targets_.contains(next.vertex) || line_.pinned[next.vertex] >= level ||
+                entered_.contains(entry_of(next.vertex))) {
                 locked.push_back(next);
                 continue;
             }
@@ -95,15 +97,25 @@ class LineCollapse {
         }
         for (const Candidate& candidate : locked) queue_.push(candidate);
         targets_.clear();
+        entered_.clear();
+    }
+
+    /// Where a vertex goes, into its nearer neighbour, and whether it comes from after it on the line.
+    using Entry = std::pair<std::size_t, bool>;
+    [[nodiscard]] Entry entry_of(std::size_t vertex) const {
+        const std::size_t a = before_[vertex], b = after_[vertex];
+        const std::uint32_t at = line_.vertices[vertex].at;
+        return at - line_.vertices[a].at <= line_.vertices[b].at - at ? Entry{a, true} : Entry{b, false};
     }
 
     void remove(std::size_t vertex, int level) {
         const std::size_t a = before_[vertex], b = after_[vertex];
         LineVertex& gone = line_.vertices[vertex];
-        const bool to_a = gone.at - line_.vertices[a].at <= line_.vertices[b].at - gone.at;
+        const Entry entry = entry_of(vertex);
         gone.gone_level = static_cast<std::uint8_t>(level);
-        gone.target_at = line_.vertices[to_a ? a : b].at;
-        targets_.insert(to_a ? a : b);
+        gone.target_at = line_.vertices[entry.first].at;
+        targets_.insert(entry.first);
+        entered_.insert(entry);
         ++version_[vertex];
         after_[a] = b;
         before_[b] = a;
@@ -116,6 +128,8 @@ class LineCollapse {
     std::vector<unsigned> version_;
     std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> queue_;
     std::unordered_set<std::size_t> targets_;  ///< of this level: they stay for it
+    /// Of this level: one vertex only goes to a target from each side, or one could overtake the other.
+    std::set<Entry> entered_;
 };
 
 /// Of an edge along a parallel; of one along a meridian the tile's middle.
