@@ -218,10 +218,10 @@ constexpr std::array kKeys = {
           row<kView, &ViewSettings::cigi_view>("view", "cigi_view",
                                                "Which of a CIGI host's views this channel draws")),
 
-    text(row<kLod, &LodSettings::method>(
-             "lod", "method",
-             "How blocks and their triangles are chosen: nested, regular, bintree or selective"),
-         "the name of a method", not_empty),
+    text(
+        row<kLod, &LodSettings::method>(
+            "lod", "method", "How blocks and their triangles are chosen: nested, tile, bintree or selective"),
+        "the name of a method", not_empty),
     number(0.0, 1.0,
            row<kLod, &LodSettings::slack>("lod", "slack",
                                           "What a choice of level that is kept from frame to frame may "

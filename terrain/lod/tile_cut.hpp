@@ -40,9 +40,9 @@ class TileCut {
     /// Of the last update: tiles looked at.
     [[nodiscard]] std::uint32_t tested() const { return tested_; }
 
-    /// Screen error of a regular level of a tile in the cut, pixels: of its shape, or of the curve of the
-    /// Earth alone, whichever asks for more. The curve is held to kHorizonPx whatever tau is, as far as it is
-    /// seen from the side: the horizon is the one line in the picture that is known exactly.
+    /// Screen error of a level (every 2^l-th post) of a tile in the cut, pixels: of its shape, or of the
+    /// curve of the Earth alone, whichever asks for more. The curve is held to kHorizonPx whatever tau is, as
+    /// far as it is seen from the side: the horizon is the one line in the picture that is known exactly.
     [[nodiscard]] double error_px(const TileNode& node, int level) const;
     /// The visible leaves across a leaf's edge: one at most as deep as the tile, or the two of the next
     /// depth, in the order of the edge's halves; absent ones are nullptr. When one leaf covers the whole edge

@@ -3,7 +3,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "terrain/lod/regular.hpp"
+#include "terrain/lod/tile/tile_lod.hpp"
 #include "terrain/pager/pager.hpp"
 #include "tests/picture/flights.hpp"
 
@@ -28,7 +28,7 @@ TEST(SteadyDetail, NoFrameOfTheSampleFlightDropsBelowHalfOfTheOneBefore) {
     constexpr double kFramesPerSecond = 4.0;
     constexpr ig::PictureSize kSize{1280, 720};
     auto pager = terrain::Pager::create(open_synthetic_terrain(), {}).value();
-    terrain::RegularLod lod;
+    terrain::TileLod lod;
     std::uint64_t frame = 0, before = 0;
     for (const ig::FlightEye& eye : eyes_of(sample_flight(), kSize, kFramesPerSecond)) {
         const terrain::LodView view = lod_view(eye.eyepoint.view);

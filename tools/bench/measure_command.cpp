@@ -201,7 +201,7 @@ void add_measure_command(CLI::App& program) {
     add_measuring(*command, *request);
     command->callback([request] { run(*request); });
     command->footer(
-        "Example: eyepoint-bench measure cruise.csv --terrain FIELD --lod regular --tau 1.3 --json out.json\n"
+        "Example: eyepoint-bench measure cruise.csv --terrain FIELD --lod tile --tau 1.3 --json out.json\n"
         "         eyepoint-bench measure cruise.csv --terrain FIELD --match-p999 1.12");
 }
 

@@ -12,7 +12,7 @@
 
 #include "terrain/database/shard.hpp"
 #include "terrain/geodesy/earth.hpp"
-#include "terrain/lod/regular.hpp"
+#include "terrain/lod/tile/tile_lod.hpp"
 #include "tests/support/analytic_terrain.hpp"
 #include "tests/terrain/lod/drawn_mesh.hpp"
 
@@ -309,7 +309,7 @@ TEST_F(PagerTest, AnUnreadableBlockIsDrawnFromItsAncestorWithoutCracks) {
                                  glm::normalize(2.0 * north + down), glm::normalize(-2.0 * north + down)},
                        .kappa_px = 1000.0,
                        .tau_px = 0.01};
-    RegularLod lod;
+    TileLod lod;
     std::uint64_t frame = 0;
     const Selection* selection = nullptr;
     do {

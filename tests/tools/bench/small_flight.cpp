@@ -36,7 +36,7 @@ std::shared_ptr<const terrain::Database> small_hills() {
 
 SmallFlight::SmallFlight(std::shared_ptr<const terrain::Database> database)
     : database_(std::move(database)), surface_(database_) {
-    auto flight = tools::LodFlight::create(database_, {.lod_method = "regular"});
+    auto flight = tools::LodFlight::create(database_, {.lod_method = "tile"});
     if (!flight) throw std::runtime_error(flight.error());
     flight_ = std::move(*flight);
 }

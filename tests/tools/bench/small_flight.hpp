@@ -25,7 +25,7 @@ class SmallPlace {
     std::shared_ptr<const terrain::Database> database_;
 };
 
-/// A database with detail around a place, and the regular method on it.
+/// A database with detail around a place, and the method `tile` on it.
 class SmallFlight {
   public:
     explicit SmallFlight(std::shared_ptr<const terrain::Database> database);

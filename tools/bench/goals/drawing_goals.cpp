@@ -46,11 +46,10 @@ double frame_ratio(const DrawnPair& frames) {
     return median(std::move(ratios));
 }
 
-GoalLine regular_goal(const DrawnPair& regular_and_method) {
+GoalLine tile_goal(const DrawnPair& tile_and_method) {
     return at_most(
-        3,
-        fmt::format("frame CPU over that of regular levels, both at p99.9 <= {} px, cruise", kComparedP999Px),
-        frame_ratio(regular_and_method), 0.5);
+        3, fmt::format("frame CPU over that of tile, both at p99.9 <= {} px, cruise", kComparedP999Px),
+        frame_ratio(tile_and_method), 0.5);
 }
 
 GoalLine floor_goal(std::span<const TurnFrame> frames) {
@@ -66,23 +65,23 @@ std::vector<GoalLine> morph_goals(const DrawnPair& without_and_with) {
             at_most(5, "what morph adds to a vertex, bytes", kMorphBytes, 8.0)};
 }
 
-GoalDone measure_against_regular(GoalBench& bench, GoalReport& report) {
+GoalDone measure_against_tile(GoalBench& bench, GoalReport& report) {
     const std::string& method = bench.settings().lod_method;
     const auto& cruise = bench.paths().cruise;
-    const auto regular = bench.match("regular", cruise), match = bench.match(method, cruise);
-    if (!regular) return tl::unexpected(regular.error());
+    const auto tile = bench.match("tile", cruise), match = bench.match(method, cruise);
+    if (!tile) return tl::unexpected(tile.error());
     if (!match) return tl::unexpected(match.error());
-    const std::vector scenes{goal_scene("regular", regular->tau_px), goal_scene(method, match->tau_px)};
+    const std::vector scenes{goal_scene("tile", tile->tau_px), goal_scene(method, match->tau_px)};
     const auto frames = draw_cruise(bench, scenes, {});
     if (!frames) return tl::unexpected(frames.error());
     const DrawnPair pair{frames->front(), frames->back()};
-    report.add(regular_goal(pair));
+    report.add(tile_goal(pair));
     const auto triangles = [](const TurnFrame& frame) { return static_cast<double>(frame.triangles); };
     report.note(
-        fmt::format("Goal 3: {} at tau {:.2f}, {:.0f} triangles, {:.1f} ms of CPU (medians); regular "
+        fmt::format("Goal 3: {} at tau {:.2f}, {:.0f} triangles, {:.1f} ms of CPU (medians); tile "
                     "at tau {:.2f}, {:.0f}, {:.1f} ms.",
                     method, match->tau_px, median_of(pair.second, triangles), median_of(pair.second, cpu_of),
-                    regular->tau_px, median_of(pair.first, triangles), median_of(pair.first, cpu_of)));
+                    tile->tau_px, median_of(pair.first, triangles), median_of(pair.first, cpu_of)));
     return {};
 }
 

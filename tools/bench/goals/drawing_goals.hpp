@@ -19,13 +19,13 @@ struct DrawnPair {
 /// Median over eyes of the second's frame CPU over the first's.
 [[nodiscard]] double frame_ratio(const DrawnPair& frames);
 
-[[nodiscard]] GoalLine regular_goal(const DrawnPair& regular_and_method);
+[[nodiscard]] GoalLine tile_goal(const DrawnPair& tile_and_method);
 /// Of frames with floor_cpu_ms.
 [[nodiscard]] GoalLine floor_goal(std::span<const TurnFrame> frames);
 /// What morph adds to a frame and to a vertex.
 [[nodiscard]] std::vector<GoalLine> morph_goals(const DrawnPair& without_and_with);
 
-[[nodiscard]] GoalDone measure_against_regular(GoalBench& bench, GoalReport& report);
+[[nodiscard]] GoalDone measure_against_tile(GoalBench& bench, GoalReport& report);
 [[nodiscard]] GoalDone measure_against_floor(GoalBench& bench, GoalReport& report);
 [[nodiscard]] GoalDone measure_morph(GoalBench& bench, GoalReport& report);
 

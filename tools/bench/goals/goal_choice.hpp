@@ -19,7 +19,7 @@ struct GoalSubject {
 inline constexpr std::array kGoalSubjects{
     GoalSubject{1, "triangles at a given post error"},
     GoalSubject{2, "post error, holes and cracks"},
-    GoalSubject{3, "frame CPU against regular levels"},
+    GoalSubject{3, "frame CPU against tile"},
     GoalSubject{4, "what selection takes"},
     GoalSubject{5, "what morphing takes, and jumps that it leaves"},
     GoalSubject{6, "unfolding, storing and making meshes"},

@@ -39,7 +39,7 @@ struct Step {
 const std::array kSteps{
     Step{{1}, "matching tolerances to the field's measure of comparison", measure_triangles},
     Step{{2}, "comparing meshes with all posts at twelve tolerances", measure_post_error},
-    Step{{3}, "drawing cruise by turns with regular levels", measure_against_regular},
+    Step{{3}, "drawing cruise by turns with tile", measure_against_tile},
     Step{{4, 7}, "selecting along cruise at five tolerances", measure_selection},
     Step{{4}, "counting instructions of selection with valgrind", measure_instructions},
     Step{{5}, "comparing consecutive meshes", measure_jumps},

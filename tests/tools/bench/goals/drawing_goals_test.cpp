@@ -9,12 +9,11 @@ namespace {
 
 TEST(DrawingGoals, RatiosAreMediansOverEyesOfFramesBesideEachOther) {
     // The machine was three times slower at the second eye, for both.
-    const std::array regular{TurnFrame{.cpu_ms = 100.0}, TurnFrame{.cpu_ms = 300.0},
-                             TurnFrame{.cpu_ms = 100.0}};
+    const std::array tile{TurnFrame{.cpu_ms = 100.0}, TurnFrame{.cpu_ms = 300.0}, TurnFrame{.cpu_ms = 100.0}};
     const std::array method{TurnFrame{.cpu_ms = 45.0}, TurnFrame{.cpu_ms = 135.0}, TurnFrame{.cpu_ms = 90.0}};
-    EXPECT_DOUBLE_EQ(frame_ratio({regular, method}), 0.45);
-    EXPECT_EQ(regular_goal({regular, method}).verdict(), Verdict::Met);
-    EXPECT_EQ(regular_goal({method, regular}).verdict(), Verdict::Missed);
+    EXPECT_DOUBLE_EQ(frame_ratio({tile, method}), 0.45);
+    EXPECT_EQ(tile_goal({tile, method}).verdict(), Verdict::Met);
+    EXPECT_EQ(tile_goal({method, tile}).verdict(), Verdict::Missed);
 }
 
 TEST(DrawingGoals, AFrameIsHeldToAFifthAboveItsFloor) {

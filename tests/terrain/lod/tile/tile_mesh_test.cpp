@@ -1,4 +1,4 @@
-#include "terrain/lod/regular_mesh.hpp"
+#include "terrain/lod/tile/tile_mesh.hpp"
 
 #include <map>
 
@@ -12,7 +12,7 @@ struct Sums {
     int smallest = 1 << 30;
 };
 
-Sums sum_areas(const RegularMeshes& meshes, IndexRange range) {
+Sums sum_areas(const TileMeshes& meshes, IndexRange range) {
     Sums sums;
     for (std::uint32_t i = range.first; i < range.first + range.count; i += 3) {
         const auto column = [&](std::uint32_t c) { return meshes.indices()[i + c] % kBlockPosts; };
@@ -26,7 +26,7 @@ Sums sum_areas(const RegularMeshes& meshes, IndexRange range) {
 }
 
 /// Posts of one edge that a mesh uses, as distances from its start.
-std::vector<int> west_edge_posts(const RegularMeshes& meshes, IndexRange range) {
+std::vector<int> west_edge_posts(const TileMeshes& meshes, IndexRange range) {
     std::map<int, int> rows;
     for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
         const int index = meshes.indices()[i];
@@ -37,9 +37,9 @@ std::vector<int> west_edge_posts(const RegularMeshes& meshes, IndexRange range) 
     return posts;
 }
 
-TEST(RegularMeshes, EveryMeshCoversItsBlockOnceWithoutFolds) {
-    const RegularMeshes meshes;
-    for (int level = 0; level < kRegularLevels; ++level) {
+TEST(TileMeshes, EveryMeshCoversItsBlockOnceWithoutFolds) {
+    const TileMeshes meshes;
+    for (int level = 0; level < kTileLevels; ++level) {
         for (int set = 0; set < kHalfEdgeSets; ++set) {
             const Sums sums = sum_areas(meshes, meshes.range(level, static_cast<std::uint8_t>(set)));
             ASSERT_EQ(sums.twice_area, 2 * kBlockCells * kBlockCells) << "level " << level << " set " << set;
@@ -48,14 +48,14 @@ TEST(RegularMeshes, EveryMeshCoversItsBlockOnceWithoutFolds) {
     }
 }
 
-TEST(RegularMeshes, TriangleCountOfAnUnthinnedLevelIsTwoACell) {
-    const RegularMeshes meshes;
+TEST(TileMeshes, TriangleCountOfAnUnthinnedLevelIsTwoACell) {
+    const TileMeshes meshes;
     EXPECT_EQ(meshes.range(0, 0).count, 3U * 2 * 32 * 32);
     EXPECT_EQ(meshes.range(3, 0).count, 3U * 2 * 4 * 4);
 }
 
-TEST(RegularMeshes, ThinnedHalvesHaveTheNextLevelsPosts) {
-    const RegularMeshes meshes;
+TEST(TileMeshes, ThinnedHalvesHaveTheNextLevelsPosts) {
+    const TileMeshes meshes;
     const auto south_half = static_cast<std::uint8_t>(1U << static_cast<int>(HalfEdge::WestSouth));
     const auto whole = static_cast<std::uint8_t>(south_half | 1U << static_cast<int>(HalfEdge::WestNorth));
     EXPECT_EQ(west_edge_posts(meshes, meshes.range(2, 0)),

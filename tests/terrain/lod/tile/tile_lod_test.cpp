@@ -1,3 +1,5 @@
+#include "terrain/lod/tile/tile_lod.hpp"
+
 #include <cmath>
 #include <random>
 
@@ -5,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "terrain/geodesy/earth.hpp"
-#include "terrain/lod/regular.hpp"
 #include "terrain/pager/pager.hpp"
 #include "tests/support/analytic_terrain.hpp"
 #include "tests/terrain/lod/drawn_mesh.hpp"
@@ -47,7 +48,7 @@ class Flight {
     ScratchFolder scratch_;
     std::shared_ptr<const Database> database_;
     std::unique_ptr<Pager> pager_;
-    RegularLod lod_;
+    TileLod lod_;
     std::uint64_t frame_ = 0;
 };
 
@@ -70,9 +71,9 @@ void PrintTo(const Place& place, std::ostream* stream) { *stream << place.name; 
 /// same seams.
 double clearance_m(double latitude_deg) { return latitude_deg == 90.0 ? 2000.0 : 0.0; }
 
-class RegularLodAt : public ::testing::TestWithParam<Place> {};
+class TileLodAt : public ::testing::TestWithParam<Place> {};
 
-TEST_P(RegularLodAt, DrawnMeshHasNoCracksFromRandomEyes) {
+TEST_P(TileLodAt, DrawnMeshHasNoCracksFromRandomEyes) {
     const AnalyticTerrain terrain = GetParam().terrain;
     Flight flight(terrain);
     std::mt19937_64 random(20261122);
@@ -97,13 +98,13 @@ TEST_P(RegularLodAt, DrawnMeshHasNoCracksFromRandomEyes) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Earth, RegularLodAt,
+    Earth, TileLodAt,
     ::testing::Values(Place{"alps", {}}, Place{"equator", {.latitude_deg = 0.0, .longitude_deg = 0.0}},
                       Place{"antimeridian", {.latitude_deg = -16.8, .longitude_deg = 180.0}},
                       Place{"pole", {.latitude_deg = 89.7, .longitude_deg = 30.0, .detail_depth = 8}}),
     [](const auto& place) { return std::string(place.param.name); });
 
-TEST(RegularLod, HasNoCracksWhileBlocksAreStillArriving) {
+TEST(TileLod, HasNoCracksWhileBlocksAreStillArriving) {
     Flight flight({});
     const Ecef eye = to_ecef({46.5, 8.25, EllipsoidalHeight{2500.0}});
     const glm::dmat3 enu = east_north_up(46.5, 8.25);
@@ -120,7 +121,7 @@ TEST(RegularLod, HasNoCracksWhileBlocksAreStillArriving) {
     EXPECT_GT(triangles, 2000U);
 }
 
-TEST(RegularLod, ABlockDrawnCoarserThanItsNeighboursKnowIsCountedAsCracks) {
+TEST(TileLod, ABlockDrawnCoarserThanItsNeighboursKnowIsCountedAsCracks) {
     Flight flight({});
     const Ecef eye = to_ecef({46.5, 8.25, EllipsoidalHeight{2500.0}});
     const glm::dmat3 enu = east_north_up(46.5, 8.25);
@@ -128,12 +129,12 @@ TEST(RegularLod, ABlockDrawnCoarserThanItsNeighboursKnowIsCountedAsCracks) {
     std::vector<BlockDraw> draws = selection.draws;
     ASSERT_GT(draws.size(), 4U);
     const auto level = static_cast<int>(draws[1].node->mark.level);
-    ASSERT_LT(level, kRegularLevels - 1);
-    draws[1].indices = RegularMeshes{}.range(level + 1, 0);
+    ASSERT_LT(level, kTileLevels - 1);
+    draws[1].indices = TileMeshes{}.range(level + 1, 0);
     EXPECT_GT(flight.faults(draws).cracks, 0U);
 }
 
-TEST(RegularLod, ASmallerToleranceDrawsMore) {
+TEST(TileLod, ASmallerToleranceDrawsMore) {
     Flight flight({});
     const Ecef eye = to_ecef({46.5, 8.25, EllipsoidalHeight{3000.0}});
     const glm::dmat3 enu = east_north_up(46.5, 8.25);
@@ -146,7 +147,7 @@ TEST(RegularLod, ASmallerToleranceDrawsMore) {
     }
 }
 
-TEST(RegularLod, EveryDrawnBlockIsFineEnoughOnceLoaded) {
+TEST(TileLod, EveryDrawnBlockIsFineEnoughOnceLoaded) {
     Flight flight({});
     const Ecef eye = to_ecef({46.5, 8.25, EllipsoidalHeight{3000.0}});
     const glm::dmat3 enu = east_north_up(46.5, 8.25);
@@ -159,7 +160,7 @@ TEST(RegularLod, EveryDrawnBlockIsFineEnoughOnceLoaded) {
     }
 }
 
-TEST(RegularLod, FromSpaceTheWholeVisibleHemisphereIsDrawn) {
+TEST(TileLod, FromSpaceTheWholeVisibleHemisphereIsDrawn) {
     Flight flight({.amplitude_m = 0.0});
     const Ecef eye{3.0e7, 0.0, 0.0};
     const Selection& selection = flight.settle(look(eye, {-1.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, 1.0));
@@ -188,7 +189,7 @@ bool any_part_drawn(const Selection& selection, TileId tile) {
     });
 }
 
-TEST(RegularLod, WhereDrawingEndsAtTheHorizonTheDrawnMeshItselfHidesTheEnd) {
+TEST(TileLod, WhereDrawingEndsAtTheHorizonTheDrawnMeshItselfHidesTheEnd) {
     Flight flight({.amplitude_m = 0.0});
     for (const double height_m : {50.0, 3000.0, 12000.0}) {
         const Ecef eye = to_ecef({10.0, 50.0, EllipsoidalHeight{height_m}});

@@ -1,4 +1,4 @@
-#include "terrain/lod/regular_mesh.hpp"
+#include "terrain/lod/tile/tile_mesh.hpp"
 
 namespace eyepoint::terrain {
 
@@ -56,8 +56,8 @@ void append_mesh(std::vector<std::uint16_t>& indices, int level, std::uint8_t se
 
 }  // namespace
 
-RegularMeshes::RegularMeshes() {
-    for (int level = 0; level < kRegularLevels; ++level) {
+TileMeshes::TileMeshes() {
+    for (int level = 0; level < kTileLevels; ++level) {
         for (int set = 0; set < kHalfEdgeSets; ++set) {
             const auto first = static_cast<std::uint32_t>(indices_.size());
             append_mesh(indices_, level, static_cast<std::uint8_t>(set));

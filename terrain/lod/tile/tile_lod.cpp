@@ -1,4 +1,4 @@
-#include "terrain/lod/regular.hpp"
+#include "terrain/lod/tile/tile_lod.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -16,7 +16,7 @@ int resolution(const TileNode& node) {
 
 }  // namespace
 
-const Selection& RegularLod::select(const LodView& view, TileTree& tree, std::uint64_t frame) {
+const Selection& TileLod::select(const LodView& view, TileTree& tree, std::uint64_t frame) {
     cut_.update(view, view.tau_px, tree, frame);
     selection_.draws.clear();
     selection_.wishes = cut_.wishes();
@@ -29,15 +29,15 @@ const Selection& RegularLod::select(const LodView& view, TileTree& tree, std::ui
     return selection_;
 }
 
-void RegularLod::choose_levels(double tau_px) {
+void TileLod::choose_levels(double tau_px) {
     for (TileNode* node : leaves_) {
-        int level = kRegularLevels - 1;
+        int level = kTileLevels - 1;
         while (level > 0 && cut_.error_px(*node, level) > tau_px) --level;
         node->mark.level = static_cast<std::int8_t>(level);
     }
 }
 
-void RegularLod::balance() {
+void TileLod::balance() {
     by_resolution_.resize(kMaxDepth + kBlockHalvings + 1);
     for (TileNode* node : leaves_)
         by_resolution_[static_cast<std::size_t>(resolution(*node))].push_back(node);
@@ -58,7 +58,7 @@ void RegularLod::balance() {
     }
 }
 
-void RegularLod::emit() {
+void TileLod::emit() {
     std::sort(leaves_.begin(), leaves_.end(),
               [](const TileNode* a, const TileNode* b) { return a->mark.distance_m < b->mark.distance_m; });
     for (const TileNode* node : leaves_) {
