@@ -22,6 +22,8 @@ constexpr std::array kShows = {"terrain"sv, "wireframe"sv, "levels"sv};
 constexpr std::array kPacings = {"fixed"sv, "free"sv, "host"sv};
 constexpr std::array kLodCaches = {"sound"sv, "four_corner"sv, "off"sv};
 constexpr std::array kScreenErrors = {"bound"sv, "paper"sv};
+constexpr std::array kTilePosts = {"9"sv, "17"sv, "33"sv};
+constexpr std::array kMorphBy = {"distance"sv, "time"sv, "frames"sv};
 constexpr std::array kDrawTimes = {"always"sv, "on_change"sv};
 
 template <typename Enum>
@@ -42,6 +44,10 @@ constexpr std::span<const std::string_view> names_of() {
         return kLodCaches;
     } else if constexpr (std::is_same_v<Enum, ScreenError>) {
         return kScreenErrors;
+    } else if constexpr (std::is_same_v<Enum, TilePosts>) {
+        return kTilePosts;
+    } else if constexpr (std::is_same_v<Enum, MorphBy>) {
+        return kMorphBy;
     } else if constexpr (std::is_same_v<Enum, DrawWhen>) {
         return kDrawTimes;
     } else {
@@ -244,6 +250,16 @@ constexpr std::array kKeys = {
                "lod", "screen_error",
                "What the method selective judges a vertex by: a bound on the error wherever it is felt, or "
                "the formula of Ueng & Chuang at the vertex")),
+    choice(kTilePosts, row<kLod, &LodSettings::tile_posts>("lod", "tile_posts",
+                                                           "Posts of a tile of the method tile, a side")),
+    choice(kMorphBy,
+           row<kLod, &LodSettings::morph_by>(
+               "lod", "morph_by",
+               "What moves a tile of the method tile on from level to level: the way of the eye, seconds, or "
+               "drawn frames")),
+    whole(1, 100000,
+          row<kLod, &LodSettings::rebuilds>(
+              "lod", "rebuilds", "Tiles of the method tile that may change their mesh's level in a frame")),
 
     choice(kShadings,
            row<kRender, &RenderSettings::shading>(

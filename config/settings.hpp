@@ -15,6 +15,8 @@ enum class Shading : std::uint8_t { Forward, Deferred, Automatic };
 enum class Show : std::uint8_t { Terrain, Wireframe, Levels };
 enum class Pacing : std::uint8_t { Fixed, Free, Host };
 enum class LodCache : std::uint8_t { Sound, FourCorner, Off };
+enum class MorphBy : std::uint8_t { Distance, Time, Frames };
+enum class TilePosts : std::uint8_t { Posts9, Posts17, Posts33 };
 enum class ScreenError : std::uint8_t { Bound, Paper };
 enum class DrawWhen : std::uint8_t { Always, OnChange };
 
@@ -52,6 +54,9 @@ struct LodSettings {
     std::uint32_t triangles = 0;  ///< of bintree, drawn at most; 0: as many as tau asks for; 0..10000000
     LodCache cache = LodCache::Sound;               ///< of selective: when a block's selection is kept
     ScreenError screen_error = ScreenError::Bound;  ///< of selective: what a vertex is judged by
+    TilePosts tile_posts = TilePosts::Posts33;      ///< of tile: posts of a tile, a side
+    MorphBy morph_by = MorphBy::Distance;           ///< of tile: what moves a morph on
+    std::uint32_t rebuilds = 16;  ///< of tile: tiles that may change level in a frame, 1..100000
 };
 
 struct RenderSettings {

@@ -145,11 +145,21 @@ terrain::selective::Options selective_options(const config::LodSettings& lod) {
             kReuseTests[static_cast<std::size_t>(lod.cache)]};
 }
 
+terrain::tiles::Options tile_options(const config::LodSettings& lod) {
+    using terrain::tiles::MorphClock;
+    constexpr std::array kPosts{9, 17, 33};
+    constexpr std::array kClocks{MorphClock::Distance, MorphClock::Time, MorphClock::Frames};
+    return {.posts = kPosts[static_cast<std::size_t>(lod.tile_posts)],
+            .clock = kClocks[static_cast<std::size_t>(lod.morph_by)],
+            .rebuilds = lod.rebuilds};
+}
+
 SceneOptions scene_options(const config::Settings& settings, const FrameTracks& tracks) {
     SceneOptions options;
     options.lod_method = settings.lod.method;
     options.triangle_budget = settings.lod.triangles;
     options.selective = selective_options(settings.lod);
+    options.tile = tile_options(settings.lod);
     options.tau_px = settings.terrain.tau_px;
     options.slack = settings.lod.slack;
     options.morph = settings.lod.morph == config::Switch::On;

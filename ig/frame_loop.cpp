@@ -179,6 +179,7 @@ tl::expected<void, std::string> FrameLoop::fly(const TimedEye& eye, const FrameT
     constexpr double kShare = 1.0 / 8.0;  // of the newest frame in the usual one
     constexpr double kMostNs = 1e6;       // so that a stop within a frame does not pass for usual
     if (!first_deadline_ns_) first_deadline_ns_ = tick.deadline_ns;
+    parts_.scene.set_time(seconds_between(*first_deadline_ns_, tick.deadline_ns));
     auto entry = draw(eye, start);
     if (!entry) return tl::unexpected(entry.error());
     entry->time_s = seconds_between(*first_deadline_ns_, tick.deadline_ns);

@@ -50,6 +50,7 @@ class TerrainScene final : public Scene {
     void draw_still(const View& view) override;
     void set_show(Show show) override { options_.show = show; }
     void set_tau(double tau_px) override { options_.tau_px = tau_px; }
+    void set_time(double seconds) override { time_s_ = seconds; }
     [[nodiscard]] Shading shading() const override { return shading_; }
     std::uint64_t load_all(const View& view) override;
     std::vector<std::string> take_faults() override { return pager_->take_faults(); }
@@ -76,12 +77,17 @@ class TerrainScene final : public Scene {
     SkyPass sky_;
     GlBuffer uniforms_;
     std::uint64_t frame_ = 0;
+    std::uint64_t drawn_frames_ = 0;
+    double time_s_ = 0.0;
     const terrain::Selection* drawn_ = nullptr;  ///< the last draw's, until the next choice
     std::optional<StillMesh> still_;
 };
 
 terrain::LodView TerrainScene::lod_view_of(const View& view) const {
-    return lod_view(view, options_.tau_px, options_.slack * options_.tau_px);
+    terrain::LodView result = lod_view(view, options_.tau_px, options_.slack * options_.tau_px);
+    result.time_s = time_s_;
+    result.drawn_frame = drawn_frames_;
+    return result;
 }
 
 /// Chooses what to draw from the blocks there are and wishes for the missing ones.
@@ -171,6 +177,7 @@ void TerrainScene::warm_up(const View& view) {
 
 FrameStatistics TerrainScene::draw(const View& view) {
     take_over_blocks();
+    ++drawn_frames_;
     const double start_ms = thread_cpu_ms();
     const terrain::Selection& selection = select(view);
     const double selection_ms = thread_cpu_ms() - start_ms;
@@ -226,9 +233,12 @@ std::uint64_t TerrainScene::load_all(const View& view) {
 
 tl::expected<std::unique_ptr<Scene>, std::string> Scene::create(
     std::shared_ptr<const terrain::Database> database, const SceneOptions& options) {
-    auto method = terrain::make_lod_method(options.lod_method, {.cull = options.horizon_culling,
-                                                                .triangle_budget = options.triangle_budget,
-                                                                .selective = options.selective});
+    terrain::LodMethodOptions of_method{.cull = options.horizon_culling,
+                                        .triangle_budget = options.triangle_budget,
+                                        .selective = options.selective,
+                                        .tile = options.tile};
+    of_method.tile.morph = options.morph;
+    auto method = terrain::make_lod_method(options.lod_method, of_method);
     if (!method)
         return tl::unexpected(fmt::format("no LOD method is called '{}'; there is '{}'", options.lod_method,
                                           fmt::join(terrain::lod_method_names(), "', '")));

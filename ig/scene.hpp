@@ -16,6 +16,7 @@
 #include "ig/trace/frame_tracks.hpp"
 #include "ig/view.hpp"
 #include "terrain/lod/selective/selective_options.hpp"
+#include "terrain/lod/tile/tile_options.hpp"
 
 namespace eyepoint::terrain {
 class Database;
@@ -29,6 +30,7 @@ struct SceneOptions {
     double tau_px = 1.0;                      ///< tolerance, pixels
     std::uint32_t triangle_budget = 0;        ///< terrain::LodMethodOptions
     terrain::selective::Options selective{};  ///< terrain::LodMethodOptions
+    terrain::tiles::Options tile{};           ///< terrain::LodMethodOptions; `morph` is below
     double slack = 0.1;  ///< s as a share of tau: what a choice of level once made may exceed tau by
     bool morph = true;   ///< vertices slide from level to level; otherwise they jump
     bool horizon_culling = false;  ///< leave out what nearer terrain hides: the same picture; nested alone
@@ -75,6 +77,8 @@ class Scene {
     /// Pixels, above 0, from the next frame on; the slack keeps its share of it. Choices of level that are
     /// still right for the new tolerance are kept.
     virtual void set_tau(double tau_px) = 0;
+    /// When the next frame is, for what is animated by time. It does not go back.
+    virtual void set_time(double seconds) = 0;
     /// The one in force; Automatic until the first frame has chosen.
     [[nodiscard]] virtual Shading shading() const = 0;
     /// Loads, waiting, until nothing that the view asks for is missing (or cannot be read): for tests,

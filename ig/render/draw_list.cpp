@@ -45,6 +45,14 @@ glm::vec4 part_of(terrain::TileId painted, terrain::TileId tile, std::uint32_t a
     return glm::vec4{glm::dvec4{at, scale, fraction(tile.x * scale), fraction(tile.y * scale)}};
 }
 
+/// As in tile_slide.glsl.
+glm::uvec4 packed(const terrain::TileSlide& slide) {
+    constexpr unsigned kSlidShift = 8, kStitchedShift = 16;
+    glm::uvec4 words{slide.level | slide.slid << kSlidShift | slide.stitched << kStitchedShift, 0U, 0U, 0U};
+    std::memcpy(&words.y, slide.border.data(), slide.border.size());
+    return words;
+}
+
 bool any(const terrain::EdgeFloors& floors) {
     return std::any_of(floors.begin(), floors.end(), [](std::uint8_t level) { return level != 0; });
 }
@@ -70,8 +78,9 @@ void DrawCommands::draw() const {
                                   static_cast<GLsizei>(counts.size()), base_vertices.data());
 }
 
-DrawList::DrawList(bool nested, bool shared_list)
+DrawList::DrawList(bool nested, int sliding_parts, bool shared_list)
     : nested_(nested),
+      parts_(static_cast<std::size_t>(sliding_parts * sliding_parts)),
       shared_list_(shared_list),
       blocks_(kFirstSlots),
       images_(kImageLayers),
@@ -93,6 +102,7 @@ void DrawList::update(const terrain::Selection& selection, std::uint64_t frame) 
         if (draw.node != node) slot = place(*draw.node, frame);
         node = draw.node;
         if (drawn_in_frame_[slot] != frame) describe_drawn(draw, slot, frame);
+        if (parts_ > 0) slides_[slot * parts_ + draw.slide.part] = packed(draw.slide);
         if (draw.mesh != nullptr) blocks_.set_list(slot, *draw.mesh);
         add(draw, slot);
     }
@@ -106,6 +116,7 @@ std::uint32_t DrawList::place(const terrain::TileNode& node, std::uint64_t frame
         records_.resize(blocks_.slots());
         placed_in_frame_.resize(blocks_.slots());
         drawn_in_frame_.resize(blocks_.slots());
+        slides_.resize(blocks_.slots() * parts_);
     }
     if (!nested_ || placed_in_frame_[slot] == frame) return slot;
     placed_in_frame_[slot] = frame;
@@ -172,6 +183,9 @@ void DrawList::send_records() {
     glNamedBufferData(record_buffer_.name(), static_cast<GLsizeiptr>(records_.size() * sizeof(BlockRecord)),
                       records_.data(), GL_STREAM_DRAW);
     glTextureBuffer(record_words_.name(), GL_RGBA32UI, record_buffer_.name());
+    if (slides_.empty()) return;
+    glNamedBufferData(slide_buffer_.name(), static_cast<GLsizeiptr>(slides_.size() * sizeof(glm::uvec4)),
+                      slides_.data(), GL_STREAM_DRAW);
 }
 
 }  // namespace eyepoint::ig

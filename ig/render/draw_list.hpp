@@ -44,9 +44,10 @@ class DrawList {
     /// are wrong.
     static constexpr std::uint32_t kNoSlot = 0;
 
-    /// nested: a drawn block's ancestors are there with it, for the walk of nested.glsl. shared_list: all
-    /// draws refer to one list, that the caller binds; otherwise to their blocks' (block_store()).
-    DrawList(bool nested, bool shared_list);
+    /// nested: a drawn block's ancestors are there with it, for the walk of nested.glsl. sliding_parts:
+    /// LodMethod's. shared_list: all draws refer to one list, that the caller binds; otherwise to their
+    /// blocks' (block_store()).
+    DrawList(bool nested, int sliding_parts, bool shared_list);
 
     /// Takes in a selection: uploads what is not on the card yet.
     void update(const terrain::Selection& selection, std::uint64_t frame);
@@ -65,6 +66,8 @@ class DrawList {
     [[nodiscard]] GLuint record_buffer() const { return record_buffer_.name(); }
     /// The same as a buffer texture, GL_RGBA32UI: four texels a record.
     [[nodiscard]] GLuint record_words() const { return record_words_.name(); }
+    /// TileSlide by slot and part (tile_slide.glsl), of the blocks of the last update.
+    [[nodiscard]] GLuint slide_buffer() const { return slide_buffer_.name(); }
     /// Sent to the card since the list was made.
     [[nodiscard]] std::uint64_t uploaded_blocks() const { return blocks_.uploads(); }
     [[nodiscard]] std::uint64_t uploaded_bytes() const;
@@ -85,12 +88,15 @@ class DrawList {
     void send_records();
 
     bool nested_;
+    std::size_t parts_;  ///< of a block, that slide by themselves
     bool shared_list_;
     BlockStore blocks_;
     ImageStore images_;
     GlBuffer record_buffer_;
     GlTexture record_words_;
-    std::vector<BlockRecord> records_;            ///< by slot
+    std::vector<BlockRecord> records_;  ///< by slot
+    GlBuffer slide_buffer_;
+    std::vector<glm::uvec4> slides_;              ///< by slot and part
     std::vector<std::uint64_t> placed_in_frame_;  ///< by slot: the record's tree part is of that frame
     std::vector<std::uint64_t> drawn_in_frame_;   ///< by slot: all of the record is
     DrawCommands all_;

@@ -20,6 +20,7 @@ struct DrawnTerrain {
     GLuint record_words = 0;  ///< the same as a buffer texture, four texels a record
     GLuint relief = 0;        ///< terrain::ReliefPost as a buffer texture, kBlockVertices a block
     GLuint images = 0;
+    GLuint slides = 0;  ///< of tile_slide.glsl, where vertices of grids slide
     std::size_t features = 0;
 
     /// Binds what fragment shaders read of it, and the noise.

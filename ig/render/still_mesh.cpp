@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "terrain/lod/nested_motion.hpp"
+#include "terrain/lod/tile/tile_slide.hpp"
 
 namespace eyepoint::ig {
 
@@ -33,6 +34,16 @@ BlockVertex stopped(const terrain::BlockDraw& draw, std::uint16_t vertex, const 
 
 void fill(const GlBuffer& buffer, std::size_t bytes, const void* content) {
     glNamedBufferStorage(buffer.name(), static_cast<GLsizeiptr>(std::max<std::size_t>(bytes, 4)), content, 0);
+}
+
+/// The same of a tile's that slides.
+BlockVertex stopped(const terrain::BlockDraw& draw, std::uint16_t vertex, int parts,
+                    const terrain::LodView& view) {
+    const terrain::Block& block = *draw.node->block;
+    const glm::vec3 from_eye =
+        terrain::tiles::slid_vertex(block, vertex, draw.slide, parts, terrain::split(view.eye));
+    const terrain::SplitPosition place = terrain::split(view.eye + glm::dvec3{from_eye});
+    return {place.high, place.low, block.vertices[vertex].place, block.vertices[vertex].rest};
 }
 
 /// Content of the mesh's buffers, gathered draw by draw.
@@ -77,11 +88,15 @@ class Gathering {
         std::uint16_t& place = block.place[index];
         if (place == kUnused) {
             place = block.used++;
-            const bool moves = method_.mesh_kind() == terrain::MeshKind::Nested;
-            vertices[block.first + place] =
-                moves ? stopped(draw, index, view_, motion_) : draw.node->block->vertices[index];
+            vertices[block.first + place] = stood(draw, index);
         }
         return block.first + place;
+    }
+
+    [[nodiscard]] BlockVertex stood(const terrain::BlockDraw& draw, std::uint16_t index) const {
+        if (method_.mesh_kind() == terrain::MeshKind::Nested) return stopped(draw, index, view_, motion_);
+        const int parts = method_.sliding_parts();
+        return parts > 0 ? stopped(draw, index, parts, view_) : draw.node->block->vertices[index];
     }
 
     const DrawList& list_;

@@ -18,11 +18,20 @@ using Files = std::vector<std::string_view>;
 constexpr glm::vec4 kPaper{0.93F, 0.93F, 0.90F, 0.35F};
 constexpr glm::vec4 kInk{0.10F, 0.16F, 0.30F, 0.0F};
 
-ProgramSource source(bool sliding, Files fragment_files, Files defines) {
+/// Tiles a side of a block, as a #define; there are no others (terrain/lod/tile/tile_mesh.hpp).
+std::string_view tile_parts(int parts) {
+    return parts == 1 ? "TILE_PARTS 1" : parts == 2 ? "TILE_PARTS 2" : "TILE_PARTS 4";
+}
+
+ProgramSource source(bool nested, int sliding_parts, Files fragment_files, Files defines) {
     Files vertex{"frame.glsl", "block.glsl"};
-    if (sliding) {
+    if (nested) {
         vertex.emplace_back("nested.glsl");
         defines.emplace_back("NESTED");
+    }
+    if (sliding_parts > 0) {
+        vertex.emplace_back("tile_slide.glsl");
+        defines.emplace_back(tile_parts(sliding_parts));
     }
     vertex.emplace_back("terrain.vert.glsl");
     return {std::move(vertex), std::move(fragment_files), std::move(defines)};
@@ -47,16 +56,19 @@ glm::vec4 colour_of(const terrain::BlockDraw& draw) {
 
 }  // namespace
 
-tl::expected<TerrainPass::Programs, std::string> TerrainPass::link(bool nested, bool sliding) {
+tl::expected<TerrainPass::Programs, std::string> TerrainPass::link(bool nested, const Motion& motion) {
+    const auto source_of = [&](Files fragment_files, Files defines) {
+        return source(motion.nested, motion.sliding_parts, std::move(fragment_files), std::move(defines));
+    };
     Programs programs;
     for (std::size_t set = 0; set < kFeatureSets; ++set) {
-        auto program = link_program(source(sliding, ground_files(), shading_defines(set, nested)));
+        auto program = link_program(source_of(ground_files(), shading_defines(set, nested)));
         if (!program) return tl::unexpected(program.error());
         programs.shaded.push_back(std::move(*program));
     }
     const std::array<ProgramSource, 3> others{
-        source(sliding, {"surface.glsl", "surface.frag.glsl"}, {}), source(sliding, {"depth.frag.glsl"}, {}),
-        source(sliding, {"frame.glsl", "relief.glsl", "shown.frag.glsl"}, shading_defines(0, nested))};
+        source_of({"surface.glsl", "surface.frag.glsl"}, {}), source_of({"depth.frag.glsl"}, {}),
+        source_of({"frame.glsl", "relief.glsl", "shown.frag.glsl"}, shading_defines(0, nested))};
     for (const ProgramSource& other : others) {
         auto program = link_program(other);
         if (!program) return tl::unexpected(program.error());
@@ -66,17 +78,17 @@ tl::expected<TerrainPass::Programs, std::string> TerrainPass::link(bool nested, 
 }
 
 tl::expected<TerrainPass, std::string> TerrainPass::create(const terrain::LodMethod& method) {
-    const bool nested = method.mesh_kind() == terrain::MeshKind::Nested;
-    auto programs = link(nested, nested);
+    const Motion motion{method.mesh_kind() == terrain::MeshKind::Nested, method.sliding_parts()};
+    auto programs = link(motion.nested, motion);
     if (!programs) return tl::unexpected(programs.error());
-    return TerrainPass{std::move(*programs), method.indices(), nested};
+    return TerrainPass{std::move(*programs), method.indices(), motion};
 }
 
-TerrainPass::TerrainPass(Programs programs, std::span<const std::uint16_t> indices, bool nested)
+TerrainPass::TerrainPass(Programs programs, std::span<const std::uint16_t> indices, const Motion& motion)
     : programs_(std::move(programs)),
-      nested_(nested),
+      motion_(motion),
       noise_(make_noise_texture()),
-      list_(nested, !indices.empty()) {
+      list_(motion.nested, motion.sliding_parts, !indices.empty()) {
     if (!indices.empty()) {
         shared_indices_.emplace();
         glNamedBufferStorage(shared_indices_->name(), static_cast<GLsizeiptr>(indices.size_bytes()),
@@ -117,7 +129,7 @@ DrawnTerrain TerrainPass::terrain() const {
     const GLuint indices = shared_indices_ ? shared_indices_->name() : blocks.index_buffer();
     return {blocks.vertex_buffer(),   blocks.vertex_words(), indices,
             list_.record_buffer(),    list_.record_words(),  blocks.relief(),
-            list_.images().texture(), list_.features()};
+            list_.images().texture(), list_.slide_buffer(),  list_.features()};
 }
 
 void TerrainPass::begin(const DrawnTerrain& terrain) const {
@@ -125,6 +137,7 @@ void TerrainPass::begin(const DrawnTerrain& terrain) const {
     glVertexArrayVertexBuffer(layout_.name(), 0, terrain.vertices, 0, sizeof(terrain::BlockVertex));
     glVertexArrayElementBuffer(layout_.name(), terrain.indices);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, terrain.records);
+    if (motion_.sliding_parts > 0) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, terrain.slides);
     terrain.bind_painted(noise_.name());
     glBindTextureUnit(kVertexUnit, terrain.vertex_words);
     glEnable(GL_DEPTH_TEST);
@@ -164,8 +177,8 @@ void TerrainPass::draw_surface() const {
 }
 
 bool TerrainPass::prepare_still() {
-    if (!nested_ || motionless_) return true;
-    auto programs = link(true, false);
+    if (!motion_.any() || motionless_) return true;
+    auto programs = link(motion_.nested, {});
     if (programs) motionless_ = std::move(*programs);
     return motionless_.has_value();
 }

@@ -36,8 +36,7 @@ class TerrainPass {
     void draw_surface() const;
     /// Makes what the next two need; false where that fails.
     [[nodiscard]] bool prepare_still();
-    /// The same two of a mesh that stands still: the same programs, without what moves the vertices of nested
-    /// meshes.
+    /// The same two of a mesh that stands still: the same programs, without what moves vertices.
     void draw(const StillMesh& mesh) const;
     void draw_surface(const StillMesh& mesh) const;
     /// Its depth alone.
@@ -62,15 +61,22 @@ class TerrainPass {
     };
     enum Other : std::size_t { kSurface, kDepth, kShown };
 
-    [[nodiscard]] static tl::expected<Programs, std::string> link(bool nested, bool sliding);
-    TerrainPass(Programs programs, std::span<const std::uint16_t> indices, bool nested);
+    /// How a method's vertices move; not at all: false and 0.
+    struct Motion {
+        bool nested = false;
+        int sliding_parts = 0;  ///< LodMethod's
+        [[nodiscard]] bool any() const { return nested || sliding_parts > 0; }
+    };
+
+    [[nodiscard]] static tl::expected<Programs, std::string> link(bool nested, const Motion& motion);
+    TerrainPass(Programs programs, std::span<const std::uint16_t> indices, const Motion& motion);
     void describe_vertices() const;
     void begin(const DrawnTerrain& terrain) const;
-    [[nodiscard]] const Programs& still_programs() const { return nested_ ? *motionless_ : programs_; }
+    [[nodiscard]] const Programs& still_programs() const { return motion_.any() ? *motionless_ : programs_; }
 
     Programs programs_;
     std::optional<Programs> motionless_;  ///< of a method whose vertices move
-    bool nested_;
+    Motion motion_;
     GlVertexArray layout_;
     std::optional<GlBuffer> shared_indices_;  ///< of a method with one list for all draws
     GlTexture noise_;

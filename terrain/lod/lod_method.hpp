@@ -13,6 +13,7 @@
 
 #include "terrain/geodesy/position.hpp"
 #include "terrain/lod/selective/selective_options.hpp"
+#include "terrain/lod/tile/tile_options.hpp"
 #include "terrain/pager/pager.hpp"
 
 namespace eyepoint::terrain {
@@ -26,6 +27,10 @@ struct LodView {
     double tau_px = 1.0;    ///< tolerance
     double slack_px = 0.0;  ///< a choice once made may stand until its error is tau + slack
     double near_m = 0.5;    ///< nothing nearer is drawn
+    /// When and in which drawn frame, for what is animated; neither goes back. Several selections may be of
+    /// one.
+    double time_s = 0.0;
+    std::uint64_t drawn_frame = 0;
 };
 
 /// Triangles of a mesh: part of an index list (index_list()). Indices name vertices of one block.
@@ -46,6 +51,20 @@ struct BlockMesh {
 /// edge's start first).
 using EdgeFloors = std::array<std::uint8_t, 8>;
 
+/// How the vertices of a tile of a grid slide from one level to the next (terrain/lod/tile/tile_slide.hpp).
+/// A block is divided into LodMethod::sliding_parts() tiles a side, row by row from the south-west.
+struct TileSlide {
+    std::uint8_t part = 0;
+    std::uint8_t level = 0;     ///< that is drawn: every 2^level-th post
+    std::uint8_t slid = 0;      ///< inside, towards level + 1, in steps of 1 / kSlideSteps
+    std::uint8_t stitched = 0;  ///< half edges drawn with the posts of level + 1: a bit each
+    /// What vertices on the edges have slid towards the next level of the half edge; by edge (kEdges) and
+    /// half.
+    std::array<std::uint8_t, 8> border{};
+    bool operator==(const TileSlide&) const = default;
+};
+inline constexpr int kSlideSteps = 128;
+
 /// A block may be drawn in several parts; all of a block's draws have the same floors.
 struct BlockDraw {
     const TileNode* node = nullptr;  ///< its block is loaded
@@ -54,6 +73,7 @@ struct BlockDraw {
     EdgeFloors floors{};
     /// The list that the indices are of, where the method makes its own; good as long as the selection.
     const BlockMesh* mesh = nullptr;
+    TileSlide slide{};  ///< where LodMethod::sliding_parts() is not 0
 };
 
 /// What to draw, near to far, and what to load. Meshes of neighbouring draws meet without cracks.
@@ -89,6 +109,9 @@ class LodMethod {
     /// The index list that all draws refer to, constant over the method's life. Empty: each draw has a list
     /// of its block (index_list()).
     [[nodiscard]] virtual std::span<const std::uint16_t> indices() const = 0;
+    /// Tiles a side that a grid's block is divided into, whose vertices slide by BlockDraw::slide; 0: the
+    /// vertices of grids stand. Constant.
+    [[nodiscard]] virtual int sliding_parts() const { return 0; }
     /// The reference is good until the next call. The frame number grows by one a call; the tree is the same
     /// one in every call.
     [[nodiscard]] virtual const Selection& select(const LodView& view, TileTree& tree,
@@ -105,6 +128,7 @@ struct LodMethodOptions {
     /// Triangles drawn at most, the tolerance being exceeded where they do not suffice; bintree. 0: no limit.
     std::uint32_t triangle_budget = 0;
     selective::Options selective{};
+    tiles::Options tile{};
 };
 /// nullptr for an unknown name.
 [[nodiscard]] std::unique_ptr<LodMethod> make_lod_method(std::string_view name,

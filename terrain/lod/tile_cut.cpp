@@ -47,7 +47,7 @@ void TileCut::update(const LodView& view, double tau_px, TileTree& tree, std::ui
         }
         TileNode& node = *by_depth_[depth].back();
         by_depth_[depth].pop_back();
-        if (node.mark.split || !too_coarse(node)) continue;
+        if (node.mark.split || !(too_coarse(node) || stays_split(node))) continue;
         const bool deeper = split(node);
         if (deeper) depth = 0;
     }
@@ -59,9 +59,9 @@ bool TileCut::sees(const TileBounds& bounds) const {
     return std::none_of(view_.sides.begin(), view_.sides.end(), beyond) && !horizon_.hides(bounds);
 }
 
-double TileCut::error_px(const TileNode& node, int level) const {
-    const double px_a_metre = view_.kappa_px / std::max(node.mark.distance_m, view_.near_m);
-    const double shape_px = px_a_metre * node.info.delta_m[static_cast<std::size_t>(level)];
+double TileCut::error_px(const TileNode& node, int level, double error_m, double distance) const {
+    const double px_a_metre = view_.kappa_px / std::max(distance, view_.near_m);
+    const double shape_px = px_a_metre * error_m;
     const double curve_px = px_a_metre * sagitta_m(node.tile.depth, level) * seen_from_side(node.bounds);
     return std::max(shape_px, curve_px * tau_px_ / kHorizonPx);
 }
@@ -76,11 +76,15 @@ double TileCut::seen_from_side(const TileBounds& bounds) const {
     return std::sqrt(std::max(1.0 - steepness * steepness, 0.0));
 }
 
-/// Too coarse in shape, or its picture too coarse where there is a finer one.
-bool TileCut::too_coarse(const TileNode& node) const {
+bool TileCut::too_coarse(TileNode& node) const {
     const double px_a_metre = view_.kappa_px / std::max(node.mark.distance_m, view_.near_m);
     if (error_px(node, 0) > tau_px_ || px_a_metre * node.texel_to_refine_m > kMostPixelsATexel) return true;
     return excess_ && px_a_metre * (node.info.delta_m[0] + excess_(node)) > tau_px_;
+}
+
+bool TileCut::stays_split(TileNode& node) const {
+    node.mark.kept = node.mark.was_split && keep_ && keep_(node);
+    return node.mark.kept;
 }
 
 /// The leaf of the cut that covers a tile, or the tile's own node when the cut goes deeper there.
@@ -112,7 +116,11 @@ std::array<TileNode*, 2> TileCut::across(const TileNode& node, Edge edge) const 
 void TileCut::visit(TileNode& node) {
     ++tested_;
     node.used_frame = frame_;
-    node.mark = {frame_, distance_m(node.bounds, view_.eye), 0, false, sees(node.bounds)};
+    const bool was_split = node.mark.frame + 1 == frame_ && node.mark.split;
+    node.mark = {.frame = frame_,
+                 .distance_m = distance_m(node.bounds, view_.eye),
+                 .visible = sees(node.bounds),
+                 .was_split = was_split};
     if (!node.mark.visible) return;
     by_depth_[node.tile.depth].push_back(&node);
     leaves_.push_back(&node);

@@ -24,11 +24,14 @@ namespace eyepoint::terrain {
 class TileCut {
   public:
     /// What a tile's own triangulation of all its posts errs by beyond delta_0, metres.
-    using Excess = std::function<double(const TileNode&)>;
+    using Excess = std::function<double(TileNode&)>;
+    /// Whether a tile that would do, and whose children are loaded, stays split (LodMark::kept).
+    using Keep = std::function<bool(const TileNode&)>;
 
     TileCut() = default;
-    /// excess: of a tile whose block is loaded.
-    explicit TileCut(Excess excess) : excess_(std::move(excess)) {}
+    /// excess: of a tile whose block is loaded. keep: of a tile that the update before has split; its
+    /// children's marks are still those of that update.
+    explicit TileCut(Excess excess, Keep keep = {}) : excess_(std::move(excess)), keep_(std::move(keep)) {}
 
     /// tau_px: what a tile's finest level may err by. The tree must outlive the next update.
     void update(const LodView& view, double tau_px, TileTree& tree, std::uint64_t frame);
@@ -43,7 +46,15 @@ class TileCut {
     /// Screen error of a level (every 2^l-th post) of a tile in the cut, pixels: of its shape, or of the
     /// curve of the Earth alone, whichever asks for more. The curve is held to kHorizonPx whatever tau is, as
     /// far as it is seen from the side: the horizon is the one line in the picture that is known exactly.
-    [[nodiscard]] double error_px(const TileNode& node, int level) const;
+    [[nodiscard]] double error_px(const TileNode& node, int level) const {
+        return error_px(node, level, double{node.info.delta_m[static_cast<std::size_t>(level)]},
+                        node.mark.distance_m);
+    }
+    /// The same of a part of the tile, so far from the eye and with an error of its own.
+    [[nodiscard]] double error_px(const TileNode& node, int level, double error_m, double distance) const;
+    /// Whether a tile in the cut, drawn with all its posts, is too coarse in shape, or its picture too coarse
+    /// where there is a finer one.
+    [[nodiscard]] bool too_coarse(TileNode& node) const;
     /// The visible leaves across a leaf's edge: one at most as deep as the tile, or the two of the next
     /// depth, in the order of the edge's halves; absent ones are nullptr. When one leaf covers the whole edge
     /// it is in both places.
@@ -52,7 +63,7 @@ class TileCut {
   private:
     [[nodiscard]] bool sees(const TileBounds& bounds) const;
     [[nodiscard]] double seen_from_side(const TileBounds& bounds) const;
-    [[nodiscard]] bool too_coarse(const TileNode& node) const;
+    [[nodiscard]] bool stays_split(TileNode& node) const;
     [[nodiscard]] TileNode& covering(TileId tile) const;
     void visit(TileNode& node);
     [[nodiscard]] bool split(TileNode& node);
@@ -60,6 +71,7 @@ class TileCut {
     void keep_ready(TileId tile, double priority);
 
     Excess excess_;
+    Keep keep_;
     LodView view_;
     double tau_px_ = 1.0;
     TileTree* tree_ = nullptr;

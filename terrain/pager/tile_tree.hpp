@@ -22,6 +22,8 @@ struct LodMark {
     bool split = false;
     bool visible = false;
     std::uint32_t draw = 0;  ///< index in Selection::draws
+    bool was_split = false;  ///< in the frame before
+    bool kept = false;       ///< split only because it was (TileCut::Keep)
 };
 
 struct TileNode {

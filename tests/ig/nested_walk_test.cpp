@@ -172,7 +172,7 @@ class NestedWalkGl : public ::testing::TestWithParam<bool> {
     std::unique_ptr<terrain::Pager> pager_;
     std::unique_ptr<terrain::LodMethod> method_;
     SceneOptions options_;
-    std::optional<DrawList> list_{std::in_place, true, false};
+    std::optional<DrawList> list_{std::in_place, true, 0, false};
     std::optional<Walker> walker_{std::in_place};
     std::uint64_t frame_ = 0;
     Tally tally_;

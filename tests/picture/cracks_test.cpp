@@ -113,7 +113,7 @@ TEST(SampleFlightHasNoCracks, WhileBlocksAreArriving) {
     EXPECT_GT(loading, 10);  // else nothing was proven
 }
 
-/// By a method that makes the blocks' triangles anew: what is drawn are the lists of this frame.
+/// By a method that makes the blocks' triangles anew, or slides them from frame to frame.
 class OwnTriangles : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(OwnTriangles, SampleFlightHasNoCracksCompleteAndWhileBlocksAreArriving) {
@@ -126,7 +126,7 @@ TEST_P(OwnTriangles, SampleFlightHasNoCracksCompleteAndWhileBlocksAreArriving) {
     EXPECT_GE(sweep(renderer, eyes, 30, Loading::Complete, GetParam()).frames, 50);
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, OwnTriangles, ::testing::Values("bintree", "selective"),
+INSTANTIATE_TEST_SUITE_P(Methods, OwnTriangles, ::testing::Values("bintree", "selective", "tile"),
                          [](const auto& instance) { return instance.param; });
 
 /// Real terrain from SRTM over a global DEM, made once for all tests of this file that need it.

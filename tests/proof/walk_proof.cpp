@@ -1,5 +1,5 @@
 /// Seeded random walks over analytic terrain: the methods nested and selective keep to the tolerance; bintree
-/// has no such bound, and its mesh is as whole.
+/// and tile have no such bound, and their meshes are as whole.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -41,7 +41,7 @@ TEST_P(WalkProof, IsWholeAndWithinItsBounds) {
     ProvenFlight flight(database_, {.lod_method = GetParam().lod_method});
     const auto views = walk(20261122, every_frame() ? 240 : 24);
     const Findings findings = flight.fly(views, {.every = one_in(4), .far_m = 40000.0, .pops = false});
-    if (GetParam().lod_method == "bintree")
+    if (GetParam().lod_method == "bintree" || GetParam().lod_method == "tile")
         expect_whole(findings, GetParam().name);
     else
         expect_sound(findings, GetParam().name);
@@ -58,16 +58,17 @@ constexpr AnalyticTerrain kAntimeridian{
     .latitude_deg = -17.0, .longitude_deg = 180.0, .half_size_deg = 0.3, .detail_depth = 11};
 constexpr AnalyticTerrain kPole{.latitude_deg = 90.0, .half_size_deg = 0.4, .detail_depth = 9};
 
-INSTANTIATE_TEST_SUITE_P(Earth, WalkProof,
-                         ::testing::Values(WalkPlace{"Hills", kHills},
-                                           WalkPlace{"Antimeridian", kAntimeridian}, WalkPlace{"Pole", kPole},
-                                           WalkPlace{"HillsBintree", kHills, "bintree"},
-                                           WalkPlace{"AntimeridianBintree", kAntimeridian, "bintree"},
-                                           WalkPlace{"PoleBintree", kPole, "bintree"},
-                                           WalkPlace{"HillsSelective", kHills, "selective"},
-                                           WalkPlace{"AntimeridianSelective", kAntimeridian, "selective"},
-                                           WalkPlace{"PoleSelective", kPole, "selective"}),
-                         [](const auto& instance) { return instance.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Earth, WalkProof,
+    ::testing::Values(WalkPlace{"Hills", kHills}, WalkPlace{"Antimeridian", kAntimeridian},
+                      WalkPlace{"Pole", kPole}, WalkPlace{"HillsBintree", kHills, "bintree"},
+                      WalkPlace{"AntimeridianBintree", kAntimeridian, "bintree"},
+                      WalkPlace{"PoleBintree", kPole, "bintree"}, WalkPlace{"HillsTile", kHills, "tile"},
+                      WalkPlace{"AntimeridianTile", kAntimeridian, "tile"},
+                      WalkPlace{"PoleTile", kPole, "tile"}, WalkPlace{"HillsSelective", kHills, "selective"},
+                      WalkPlace{"AntimeridianSelective", kAntimeridian, "selective"},
+                      WalkPlace{"PoleSelective", kPole, "selective"}),
+    [](const auto& instance) { return instance.param.name; });
 
 }  // namespace
 }  // namespace eyepoint::testing

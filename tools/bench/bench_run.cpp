@@ -184,6 +184,7 @@ tl::expected<BenchResult, std::string> run_bench(const BenchOptions& options,
     FrameBench bench{options, outputs->tracks, **scene, *frame_buffer};
     for (const ig::FlightEye& eye : eyes) {
         const ig::Span span(outputs->tracks.frame, "frame", {"frame", result.frames.size() + 1});
+        (*scene)->set_time(eye.time_s);
         if (options.complete) load_all(**scene, eye, outputs->tracks);
         result.frames.push_back(bench.draw(eye, result.frames.size() + 1));
         result.wall_s += result.frames.back().entry.frame_ms * 1e-3;

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "terrain/lod/selective/selective_options.hpp"
+#include "terrain/lod/tile/tile_options.hpp"
 #include "tools/bench/bench_run.hpp"
 
 namespace eyepoint::tools {
@@ -19,7 +20,10 @@ void add_size_option(CLI::App& command, ig::PictureSize& size);
 /// --cache, --screen-error. `options` outlives the parsing.
 void add_selective_options(CLI::App& command, terrain::selective::Options& options);
 
-/// --terrain, --size, --tau, --lod, --triangles, --cache, --screen-error, --pictures, --every, --record,
+/// --tile-posts, --morph-by, --rebuilds. `options` outlives the parsing.
+void add_tile_options(CLI::App& command, terrain::tiles::Options& options);
+
+/// --terrain, --size, --tau, --lod, --triangles, those of selective and tile, --pictures, --every, --record,
 /// --sentinel. `options` outlives the parsing.
 void add_drawing_options(CLI::App& command, BenchOptions& options, bool terrain_required);
 

@@ -48,6 +48,23 @@ void add_selective_options(CLI::App& command, terrain::selective::Options& optio
         ->option_text("bound|paper");
 }
 
+void add_tile_options(CLI::App& command, terrain::tiles::Options& options) {
+    using terrain::tiles::MorphClock;
+    static const std::map<std::string, MorphClock> clocks{
+        {"distance", MorphClock::Distance}, {"time", MorphClock::Time}, {"frames", MorphClock::Frames}};
+    command.add_option("--tile-posts", options.posts, "tile alone: posts of a tile, a side")
+        ->check(CLI::IsMember({9, 17, 33}))
+        ->capture_default_str();
+    command.add_option("--morph-by", options.clock, "tile alone: what moves a morph on")
+        ->transform(CLI::CheckedTransformer(clocks))
+        ->option_text("distance|time|frames");
+    command
+        .add_option("--rebuilds", options.rebuilds,
+                    "tile alone: tiles that may change to another level's mesh in a frame")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+}
+
 void add_drawing_options(CLI::App& command, BenchOptions& options, bool terrain_required) {
     auto* terrain = command.add_option("--terrain", options.terrain, "terrain database")->type_name("DB");
     if (terrain_required) terrain->required();
@@ -59,6 +76,7 @@ void add_drawing_options(CLI::App& command, BenchOptions& options, bool terrain_
     command.add_option("--triangles", options.scene.triangle_budget,
                        "bintree alone: triangles a frame at most; 0: no limit");
     add_selective_options(command, options.scene.selective);
+    add_tile_options(command, options.scene.tile);
     command.add_option("--visibility", options.scene.visibility_m, "metres")->capture_default_str();
     command.add_option("--pictures", options.pictures, "folder for pictures")->type_name("DIR");
     command.add_option("--every", options.picture_every, "a picture every so many frames")

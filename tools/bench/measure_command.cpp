@@ -46,8 +46,11 @@ std::vector<ig::FlightEye> eyes_of(const MeasureRequest& request) {
 std::vector<terrain::LodView> views_of(const MeasureRequest& request,
                                        const std::vector<ig::FlightEye>& eyes) {
     std::vector<terrain::LodView> views;
-    for (const ig::FlightEye& eye : eyes)
+    for (const ig::FlightEye& eye : eyes) {
         views.push_back(ig::lod_view(eye.eyepoint.view, request.tau_px, request.slack_px));
+        views.back().time_s = eye.time_s;
+        views.back().drawn_frame = views.size();
+    }
     return views;
 }
 
@@ -119,7 +122,7 @@ void run_measure(const MeasureRequest& request, LodFlight& flight, FullSurface& 
 }
 
 void run(MeasureRequest request) {
-    request.options.morph = request.morph == "on";
+    request.options.morph = request.flight.tile.morph = request.morph == "on";
     if (request.selection_only) request.options.posts = request.options.pops = request.options.faults = false;
     request.flight.allocations = heap_allocations;
     const std::vector<ig::FlightEye> eyes = eyes_of(request);
@@ -153,6 +156,7 @@ void add_measuring(CLI::App& command, MeasureRequest& request) {
     command.add_option("--triangles", request.flight.triangle_budget,
                        "bintree alone: triangles a frame at most; 0: no limit");
     add_selective_options(command, request.flight.selective);
+    add_tile_options(command, request.flight.tile);
     command.add_option("--every", request.options.every, "measure every so-manieth frame")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();

@@ -48,7 +48,9 @@ class Turns {
     }
 
     /// By scene.
-    [[nodiscard]] std::vector<TurnFrame> draw(const ig::View& view) {
+    [[nodiscard]] std::vector<TurnFrame> draw(const ig::FlightEye& eye) {
+        const ig::View& view = eye.eyepoint.view;
+        for (const auto& scene : scenes_) scene->set_time(eye.time_s);
         std::vector<TurnFrame> frames(scenes_.size());
         for (std::size_t i = 0; i < scenes_.size(); ++i) frames[i] = prepare(i, view);
         for (std::size_t turn = 0; turn < options_.turns; ++turn) {
@@ -116,7 +118,7 @@ tl::expected<std::vector<std::vector<TurnFrame>>, std::string> draw_by_turns(
     Turns turns(std::move(made), *std::move(frame_buffer), options);
     if (!eyes.empty()) turns.warm_up(eyes.front().eyepoint.view);
     for (const ig::FlightEye& eye : eyes) {
-        const std::vector<TurnFrame> drawn = turns.draw(eye.eyepoint.view);
+        const std::vector<TurnFrame> drawn = turns.draw(eye);
         for (std::size_t i = 0; i < drawn.size(); ++i) frames[i].push_back(drawn[i]);
     }
     return frames;

@@ -11,6 +11,9 @@ void main() {
 #ifdef NESTED
     vertex = walk(vertex, tile_slot, packed_rest.y);
 #endif
+#ifdef TILE_PARTS
+    vertex = slide(vertex, tile_slot, gl_VertexID - tile_slot * kBlockVertices);
+#endif
     relative = vertex.from_eye;
     gl_Position = clip_from_relative * vec4(vertex.from_eye, 1.0);
     height = vertex.height;

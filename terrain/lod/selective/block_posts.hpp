@@ -26,10 +26,6 @@ struct BlockPosts {
     std::array<float, kRanks> radius_m{};  ///< both triangles lie so near to the vertex
 };
 
-/// Greatest distance, along the vertical, between a block with all its vertices, which is split into
-/// triangles as the hierarchy has it, and one that is split as NodeInfo::delta_m has it; metres.
-[[nodiscard]] float twist_m(const BlockData& data);
-
 /// block: a grid's. unseen_m: greatest distance of the full-resolution surface from
 /// the block with all its vertices.
 [[nodiscard]] BlockPosts block_posts(const Block& block, float unseen_m);

@@ -8,6 +8,7 @@
 
 #include "terrain/lod/selective/dike.hpp"
 #include "terrain/lod/selective/screen_error.hpp"
+#include "terrain/lod/twist.hpp"
 #include "terrain/tiling/tile_edges.hpp"
 
 namespace eyepoint::terrain {
@@ -53,7 +54,7 @@ const Selection& SelectiveLod::select(const LodView& view, TileTree& tree, std::
 float SelectiveLod::twist_m(const TileNode& node) {
     if (!node.info.has_children) return 0.0F;
     const auto [known, fresh] = twists_m_.try_emplace(node.tile, 0.0F);
-    if (fresh) known->second = selective::twist_m(node.block->data);
+    if (fresh) known->second = terrain::twist_m(node.block->data);
     return known->second;
 }
 

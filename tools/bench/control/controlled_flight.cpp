@@ -66,6 +66,7 @@ tl::expected<std::vector<ControlledFrame>, std::string> ControlStage::fly(std::s
         const ig::View& view = eye.eyepoint.view;
         if (auto fitted = fit(view); !fitted) return tl::unexpected(fitted.error());
         scene_->set_tau(tau_px);
+        scene_->set_time(eye.time_s);
         scene_->load_all(view);
         frame_buffer_->bind();
         for (int i = 0; frames.empty() && i < kWarmUpFrames; ++i)

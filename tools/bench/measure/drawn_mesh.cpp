@@ -6,6 +6,7 @@
 
 #include "terrain/lod/nested_motion.hpp"
 #include "terrain/lod/planet_horizon.hpp"
+#include "terrain/lod/tile/tile_slide.hpp"
 
 namespace eyepoint::tools {
 
@@ -30,7 +31,10 @@ HalfTurns on_earth(terrain::TileId tile, const glm::dvec2& in_tile) {
 class Builder {
   public:
     Builder(const terrain::LodMethod& method, const terrain::LodView& view, bool morph)
-        : kind_(method.mesh_kind()), of_method_(method.indices()), eye_(terrain::split(view.eye)) {
+        : kind_(method.mesh_kind()),
+          sliding_parts_(method.sliding_parts()),
+          of_method_(method.indices()),
+          eye_(terrain::split(view.eye)) {
         if (kind_ == MeshKind::Nested) motion_ = terrain::motion_view(view, morph);
         mesh_.eye = view.eye;
         mesh_.sides = view.sides;
@@ -71,8 +75,12 @@ class Builder {
         const glm::dvec2 in_tile = glm::dvec2{column, row} / static_cast<double>(kLast);
         const unsigned edges = (column == 0 ? 1U : 0U) | (column == kLast ? 2U : 0U) | (row == 0 ? 4U : 0U) |
                                (row == kLast ? 8U : 0U);
-        return {from_eye(draw.node->block->vertices[index], eye_), on_earth(draw.node->tile, in_tile),
-                glm::u16vec2{column * kUnitsAPost, row * kUnitsAPost}, static_cast<std::uint8_t>(edges)};
+        const terrain::Block& block = *draw.node->block;
+        const glm::vec3 at = sliding_parts_ > 0
+                                 ? terrain::tiles::slid_vertex(block, index, draw.slide, sliding_parts_, eye_)
+                                 : from_eye(block.vertices[index], eye_);
+        return {at, on_earth(draw.node->tile, in_tile), glm::u16vec2{column * kUnitsAPost, row * kUnitsAPost},
+                static_cast<std::uint8_t>(edges)};
     }
 
     [[nodiscard]] MeshVertex nested_vertex(const BlockDraw& draw, std::uint16_t index) const {
@@ -83,6 +91,7 @@ class Builder {
     }
 
     MeshKind kind_;
+    int sliding_parts_;  ///< LodMethod's
     std::span<const std::uint16_t> of_method_;
     terrain::SplitPosition eye_;
     terrain::MotionView motion_;

@@ -12,9 +12,10 @@ namespace eyepoint::tools {
 
 tl::expected<std::unique_ptr<LodFlight>, std::string> LodFlight::create(
     std::shared_ptr<const terrain::Database> database, const FlightOptions& options) {
-    auto method = terrain::make_lod_method(
-        options.lod_method,
-        {.cull = options.cull, .triangle_budget = options.triangle_budget, .selective = options.selective});
+    auto method = terrain::make_lod_method(options.lod_method, {.cull = options.cull,
+                                                                .triangle_budget = options.triangle_budget,
+                                                                .selective = options.selective,
+                                                                .tile = options.tile});
     if (!method) {
         return tl::unexpected(fmt::format("no LOD method is called '{}'; there is {}", options.lod_method,
                                           fmt::join(terrain::lod_method_names(), ", ")));

@@ -19,6 +19,7 @@ struct FlightOptions {
     bool cull = false;  ///< nested alone: leave out what nearer terrain hides; the drawn mesh has gaps there
     std::uint32_t triangle_budget = 0;  ///< terrain::LodMethodOptions
     terrain::selective::Options selective{};
+    terrain::tiles::Options tile{};
     unsigned loader_threads = 1;
     std::uint64_t block_cache_bytes =
         8ULL << 30;  ///< so much that a path flown twice loads nothing the second time

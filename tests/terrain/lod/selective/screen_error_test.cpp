@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "terrain/lod/twist.hpp"
 #include "tests/terrain/lod/rough_block.hpp"
 
 namespace eyepoint::terrain::selective {

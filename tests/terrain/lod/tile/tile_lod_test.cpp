@@ -128,9 +128,10 @@ TEST(TileLod, ABlockDrawnCoarserThanItsNeighboursKnowIsCountedAsCracks) {
     const Selection& selection = flight.settle(look(eye, enu * glm::dvec3{0.3, 1.0, -0.2}, enu[2], 1.0));
     std::vector<BlockDraw> draws = selection.draws;
     ASSERT_GT(draws.size(), 4U);
-    const auto level = static_cast<int>(draws[1].node->mark.level);
-    ASSERT_LT(level, kTileLevels - 1);
-    draws[1].indices = TileMeshes{}.range(level + 1, 0);
+    const int level = draws[1].level;
+    const tiles::Division division = tiles::division(33);
+    ASSERT_LT(level, division.levels - 1);
+    draws[1].indices = tiles::TileMeshes{division}.range(0, level + 1, 0);
     EXPECT_GT(flight.faults(draws).cracks, 0U);
 }
 
@@ -154,7 +155,7 @@ TEST(TileLod, EveryDrawnBlockIsFineEnoughOnceLoaded) {
     const LodView view = look(eye, enu * glm::dvec3{0.0, 1.0, -0.15}, enu[2], 1.0);
     for (const BlockDraw& draw : flight.settle(view).draws) {
         const TileNode& node = *draw.node;
-        const double error_m = node.info.delta_m[static_cast<std::size_t>(node.mark.level)];
+        const double error_m = node.info.delta_m[draw.level];
         const double distance = std::max(distance_m(node.bounds, eye), view.near_m);
         EXPECT_LE(view.kappa_px * error_m / distance, view.tau_px * (1.0 + 1e-9));
     }
