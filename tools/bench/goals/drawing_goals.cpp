@@ -19,12 +19,6 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
-double median_of(std::span<const TurnFrame> frames, const std::function<double(const TurnFrame&)>& value) {
-    std::vector<double> values;
-    for (const TurnFrame& frame : frames) values.push_back(value(frame));
-    return median(std::move(values));
-}
-
 double cpu_of(const TurnFrame& frame) { return frame.cpu_ms; }
 
 tl::expected<std::vector<std::vector<TurnFrame>>, std::string> draw_cruise(
@@ -34,6 +28,12 @@ tl::expected<std::vector<std::vector<TurnFrame>>, std::string> draw_cruise(
 }
 
 }  // namespace
+
+double median_of(std::span<const TurnFrame> frames, const std::function<double(const TurnFrame&)>& value) {
+    std::vector<double> values;
+    for (const TurnFrame& frame : frames) values.push_back(value(frame));
+    return median(std::move(values));
+}
 
 ig::SceneOptions goal_scene(const std::string& lod_method, double tau_px) {
     return {.lod_method = lod_method, .tau_px = tau_px, .slack = 0.0, .shading = ig::Shading::Deferred};
@@ -63,6 +63,11 @@ std::vector<GoalLine> morph_goals(const DrawnPair& without_and_with) {
     return {at_most(5, "what morph adds to a frame's CPU, cruise",
                     100.0 * (frame_ratio(without_and_with) - 1.0), 2.0, "%"),
             at_most(5, "what morph adds to a vertex, bytes", kMorphBytes, 8.0)};
+}
+
+GoalLine tile_morph_goal(const DrawnPair& without_and_with) {
+    return at_most(5, "what morph adds to a frame's CPU, cruise, method tile",
+                   100.0 * (frame_ratio(without_and_with) - 1.0), 2.0, "%");
 }
 
 GoalDone measure_against_tile(GoalBench& bench, GoalReport& report) {
@@ -104,11 +109,15 @@ GoalDone measure_morph(GoalBench& bench, GoalReport& report) {
     const std::string& method = bench.settings().lod_method;
     const auto match = bench.match(method, bench.paths().cruise);
     if (!match) return tl::unexpected(match.error());
-    std::vector scenes{goal_scene(method, match->tau_px), goal_scene(method, match->tau_px)};
-    scenes.front().morph = false;
+    const auto tile = bench.match("tile", bench.paths().cruise);
+    if (!tile) return tl::unexpected(tile.error());
+    std::vector scenes{goal_scene(method, match->tau_px), goal_scene(method, match->tau_px),
+                       goal_scene("tile", tile->tau_px), goal_scene("tile", tile->tau_px)};
+    scenes[0].morph = scenes[2].morph = false;
     const auto frames = draw_cruise(bench, scenes, {});
     if (!frames) return tl::unexpected(frames.error());
-    for (GoalLine& line : morph_goals({frames->front(), frames->back()})) report.add(std::move(line));
+    for (GoalLine& line : morph_goals({(*frames)[0], (*frames)[1]})) report.add(std::move(line));
+    report.add(tile_morph_goal({(*frames)[2], (*frames)[3]}));
     return {};
 }
 

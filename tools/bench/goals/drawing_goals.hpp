@@ -1,6 +1,7 @@
 /// Goals 3, 5, 8 and 9 as far as they are about drawing: scenes by turns on every so-manieth eye of a path.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,6 +17,9 @@ struct DrawnPair {
     std::span<const TurnFrame> first, second;
 };
 
+[[nodiscard]] double median_of(std::span<const TurnFrame> frames,
+                               const std::function<double(const TurnFrame&)>& value);
+
 /// Median over eyes of the second's frame CPU over the first's.
 [[nodiscard]] double frame_ratio(const DrawnPair& frames);
 
@@ -24,6 +28,9 @@ struct DrawnPair {
 [[nodiscard]] GoalLine floor_goal(std::span<const TurnFrame> frames);
 /// What morph adds to a frame and to a vertex.
 [[nodiscard]] std::vector<GoalLine> morph_goals(const DrawnPair& without_and_with);
+
+/// What morph adds to a frame of the method tile.
+[[nodiscard]] GoalLine tile_morph_goal(const DrawnPair& without_and_with);
 
 [[nodiscard]] GoalDone measure_against_tile(GoalBench& bench, GoalReport& report);
 [[nodiscard]] GoalDone measure_against_floor(GoalBench& bench, GoalReport& report);

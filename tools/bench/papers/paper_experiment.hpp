@@ -13,6 +13,7 @@ namespace eyepoint::tools {
 struct PaperSettings {
     std::filesystem::path programs;     ///< folder of Eyepoint's programs
     std::filesystem::path synth_field;  ///< database of eyepoint-terrain synth --benchmark-field
+    std::filesystem::path benchmark;    ///< folder of the benchmark field and its paths; empty: not there
     double seconds = 30.0;              ///< of flight, at 30 frames a second
     std::size_t every = 90;             ///< post error is measured in one frame of so many
 };

@@ -1,5 +1,6 @@
 /// eyepoint-bench papers: the experiments of published papers, on Eyepoint's own methods.
 #include <array>
+#include <cstdlib>
 #include <memory>
 
 #include <fmt/format.h>
@@ -7,6 +8,7 @@
 #include "tools/bench/command_options.hpp"
 #include "tools/bench/goals/goal_line.hpp"
 #include "tools/bench/papers/he_wang_liu.hpp"
+#include "tools/bench/papers/larsen_christensen.hpp"
 #include "tools/report/page.hpp"
 
 namespace eyepoint::tools {
@@ -17,11 +19,13 @@ struct Named {
     const char* doing;
     PaperExperiment experiment;
 };
-constexpr std::array kExperiments{Named{"He, Wang & Liu, table 1", he_wang_liu_table_1}};
+constexpr std::array kExperiments{Named{"He, Wang & Liu, table 1", he_wang_liu_table_1},
+                                  Named{"Larsen & Christensen, table 7", larsen_christensen_table_7}};
 
 struct PapersRequest {
     PaperSettings settings;
     std::filesystem::path results;
+    std::string only;  ///< part of an experiment's name; empty: all
 };
 
 void write(const std::filesystem::path& file, const std::string& text) {
@@ -30,14 +34,19 @@ void write(const std::filesystem::path& file, const std::string& text) {
 
 void run(PapersRequest request) {
     request.settings.programs = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+    const char* real_data = std::getenv("EYEPOINT_REAL_DATA");
+    if (request.settings.benchmark.empty() && real_data != nullptr)
+        request.settings.benchmark = std::filesystem::path(real_data) / "benchmark";
     const std::string machine = describe_machine();
     std::vector<PaperTable> tables;
     for (const Named& named : kExperiments) {
+        if (std::string_view{named.doing}.find(request.only) == std::string_view::npos) continue;
         fmt::print(stderr, "{} ...\n", named.doing);
         auto table = named.experiment(request.settings);
         if (!table) fail(table.error());
         tables.push_back(std::move(*table));
     }
+    if (tables.empty()) fail("--only " + request.only + ": no experiment has this in its name");
     const std::string page = markdown(tables, machine);
     fmt::print("{}", page);
     if (request.results.empty()) return;
@@ -54,6 +63,13 @@ void add_papers_command(CLI::App& program) {
     command->add_option("--synth-field", request->settings.synth_field, "synthetic field's database")
         ->type_name("DB")
         ->required();
+    command
+        ->add_option("--benchmark", request->settings.benchmark,
+                     "folder of the benchmark field; else benchmark/ in what EYEPOINT_REAL_DATA names")
+        ->check(CLI::ExistingDirectory)
+        ->type_name("DIR");
+    command->add_option("--only", request->only, "only experiments with this in their names")
+        ->type_name("TEXT");
     command->add_option("--seconds", request->settings.seconds, "of each flight")
         ->check(CLI::Range(1.0, 600.0))
         ->capture_default_str();

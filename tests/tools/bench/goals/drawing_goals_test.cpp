@@ -14,6 +14,8 @@ TEST(DrawingGoals, RatiosAreMediansOverEyesOfFramesBesideEachOther) {
     EXPECT_DOUBLE_EQ(frame_ratio({tile, method}), 0.45);
     EXPECT_EQ(tile_goal({tile, method}).verdict(), Verdict::Met);
     EXPECT_EQ(tile_goal({method, tile}).verdict(), Verdict::Missed);
+    EXPECT_EQ(tile_morph_goal({tile, method}).verdict(), Verdict::Met);
+    EXPECT_EQ(tile_morph_goal({method, tile}).verdict(), Verdict::Missed);
 }
 
 TEST(DrawingGoals, AFrameIsHeldToAFifthAboveItsFloor) {
