@@ -57,6 +57,8 @@ bool any(const terrain::EdgeFloors& floors) {
     return std::any_of(floors.begin(), floors.end(), [](std::uint8_t level) { return level != 0; });
 }
 
+bool slides(const terrain::TileSlide& slide) { return slide.slid != 0 || any(slide.border); }
+
 }  // namespace
 
 void DrawCommands::clear() {
@@ -78,6 +80,11 @@ void DrawCommands::draw() const {
                                   static_cast<GLsizei>(counts.size()), base_vertices.data());
 }
 
+void SortedCommands::clear() {
+    all.clear();
+    for (DrawCommands& commands : by_features) commands.clear();
+}
+
 DrawList::DrawList(bool nested, int sliding_parts, bool shared_list)
     : nested_(nested),
       parts_(static_cast<std::size_t>(sliding_parts * sliding_parts)),
@@ -93,7 +100,8 @@ std::uint64_t DrawList::uploaded_bytes() const {
 
 void DrawList::update(const terrain::Selection& selection, std::uint64_t frame) {
     all_.clear();
-    for (DrawCommands& commands : by_features_) commands.clear();
+    sliding_.clear();
+    others_.clear();
     features_ = 0;
     blocks_drawn_ = 0;
     const terrain::TileNode* node = nullptr;
@@ -176,7 +184,9 @@ void DrawList::add(const terrain::BlockDraw& draw, std::uint32_t slot) {
     const std::uint32_t first_index = shared_list_ ? 0 : blocks_.first_index(slot);
     features_ |= set;
     all_.add(draw.indices, first_index, slot);
-    by_features_[set].add(draw.indices, first_index, slot);
+    SortedCommands& sorted = parts_ > 0 && slides(draw.slide) ? sliding_ : others_;
+    sorted.all.add(draw.indices, first_index, slot);
+    sorted.by_features[set].add(draw.indices, first_index, slot);
 }
 
 void DrawList::send_records() {

@@ -28,6 +28,14 @@ struct DrawCommands {
     [[nodiscard]] bool empty() const { return counts.empty(); }
 };
 
+/// Draws, near to far, and by the set of features that they need.
+struct SortedCommands {
+    DrawCommands all;
+    std::array<DrawCommands, kFeatureSets> by_features;
+
+    void clear();
+};
+
 class DrawList {
   public:
     /// std430 layout of BlockRecord in block.glsl.
@@ -54,8 +62,9 @@ class DrawList {
 
     /// All draws, near to far.
     [[nodiscard]] const DrawCommands& all() const { return all_; }
-    /// Those that need exactly this set of features, near to far.
-    [[nodiscard]] const DrawCommands& of_features(std::size_t set) const { return by_features_[set]; }
+    /// Those of them whose vertices slide by tile_slide.glsl, and the rest.
+    [[nodiscard]] const SortedCommands& sliding() const { return sliding_; }
+    [[nodiscard]] const SortedCommands& others() const { return others_; }
     /// Set of all features that any draw needs.
     [[nodiscard]] std::size_t features() const { return features_; }
     [[nodiscard]] std::uint32_t blocks() const { return blocks_drawn_; }
@@ -100,7 +109,7 @@ class DrawList {
     std::vector<std::uint64_t> placed_in_frame_;  ///< by slot: the record's tree part is of that frame
     std::vector<std::uint64_t> drawn_in_frame_;   ///< by slot: all of the record is
     DrawCommands all_;
-    std::array<DrawCommands, kFeatureSets> by_features_;
+    SortedCommands sliding_, others_;
     std::size_t features_ = 0;
     std::uint32_t blocks_drawn_ = 0;
 };

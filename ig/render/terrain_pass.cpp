@@ -78,17 +78,25 @@ tl::expected<TerrainPass::Programs, std::string> TerrainPass::link(bool nested, 
 }
 
 tl::expected<TerrainPass, std::string> TerrainPass::create(const terrain::LodMethod& method) {
-    const Motion motion{method.mesh_kind() == terrain::MeshKind::Nested, method.sliding_parts()};
-    auto programs = link(motion.nested, motion);
+    const bool nested = method.mesh_kind() == terrain::MeshKind::Nested;
+    auto programs = link(nested, {.nested = nested});
     if (!programs) return tl::unexpected(programs.error());
-    return TerrainPass{std::move(*programs), method.indices(), motion};
+    std::optional<Programs> sliding;
+    if (method.sliding_parts() > 0) {
+        auto linked = link(nested, {.sliding_parts = method.sliding_parts()});
+        if (!linked) return tl::unexpected(linked.error());
+        sliding = std::move(*linked);
+    }
+    return TerrainPass{std::move(*programs), std::move(sliding), method};
 }
 
-TerrainPass::TerrainPass(Programs programs, std::span<const std::uint16_t> indices, const Motion& motion)
+TerrainPass::TerrainPass(Programs programs, std::optional<Programs> sliding, const terrain::LodMethod& method)
     : programs_(std::move(programs)),
-      motion_(motion),
+      sliding_(std::move(sliding)),
+      nested_(method.mesh_kind() == terrain::MeshKind::Nested),
       noise_(make_noise_texture()),
-      list_(motion.nested, motion.sliding_parts, !indices.empty()) {
+      list_(nested_, method.sliding_parts(), !method.indices().empty()) {
+    const std::span<const std::uint16_t> indices = method.indices();
     if (!indices.empty()) {
         shared_indices_.emplace();
         glNamedBufferStorage(shared_indices_->name(), static_cast<GLsizeiptr>(indices.size_bytes()),
@@ -137,7 +145,7 @@ void TerrainPass::begin(const DrawnTerrain& terrain) const {
     glVertexArrayVertexBuffer(layout_.name(), 0, terrain.vertices, 0, sizeof(terrain::BlockVertex));
     glVertexArrayElementBuffer(layout_.name(), terrain.indices);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, terrain.records);
-    if (motion_.sliding_parts > 0) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, terrain.slides);
+    if (sliding_) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, terrain.slides);
     terrain.bind_painted(noise_.name());
     glBindTextureUnit(kVertexUnit, terrain.vertex_words);
     glEnable(GL_DEPTH_TEST);
@@ -151,34 +159,49 @@ void TerrainPass::warm_up(bool surface) const {
         glUseProgram(program.name());
         glDrawElements(GL_TRIANGLES, 3, GL_UNSIGNED_SHORT, nullptr);
     };
-    if (surface) {
-        once(programs_.others[kSurface]);
-    } else {
-        for (const GlProgram& program : programs_.shaded) once(program);
+    for (const Programs* programs : {&programs_, sliding_ ? &*sliding_ : nullptr}) {
+        if (programs == nullptr) continue;
+        if (surface) {
+            once(programs->others[kSurface]);
+        } else {
+            for (const GlProgram& program : programs->shaded) once(program);
+        }
     }
     glDisable(GL_CULL_FACE);
 }
 
 void TerrainPass::draw() const {
     begin(terrain());
-    for (std::size_t set = 0; set < kFeatureSets; ++set) {
-        if (list_.of_features(set).empty()) continue;
-        glUseProgram(programs_.shaded[set].name());
-        list_.of_features(set).draw();
-    }
+    draw_shaded(programs_, list_.others());
+    if (sliding_) draw_shaded(*sliding_, list_.sliding());
     glDisable(GL_CULL_FACE);
+}
+
+void TerrainPass::draw_shaded(const Programs& programs, const SortedCommands& commands) {
+    for (std::size_t set = 0; set < kFeatureSets; ++set) {
+        if (commands.by_features[set].empty()) continue;
+        glUseProgram(programs.shaded[set].name());
+        commands.by_features[set].draw();
+    }
+}
+
+void TerrainPass::draw_each(Other program) const {
+    glUseProgram(programs_.others[program].name());
+    list_.others().all.draw();
+    if (!sliding_ || list_.sliding().all.empty()) return;
+    glUseProgram(sliding_->others[program].name());
+    list_.sliding().all.draw();
 }
 
 void TerrainPass::draw_surface() const {
     begin(terrain());
-    glUseProgram(programs_.others[kSurface].name());
-    list_.all().draw();
+    draw_each(kSurface);
     glDisable(GL_CULL_FACE);
 }
 
 bool TerrainPass::prepare_still() {
-    if (!motion_.any() || motionless_) return true;
-    auto programs = link(motion_.nested, {});
+    if (!nested_ || motionless_) return true;
+    auto programs = link(true, {});
     if (programs) motionless_ = std::move(*programs);
     return motionless_.has_value();
 }
@@ -203,15 +226,14 @@ void TerrainPass::draw_surface(const StillMesh& mesh) const {
 void TerrainPass::draw_depth() const {
     begin(terrain());
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    glUseProgram(programs_.others[kDepth].name());
-    list_.all().draw();
+    draw_each(kDepth);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDisable(GL_CULL_FACE);
 }
 
 void TerrainPass::draw_wireframe() const {
     begin(terrain());
-    glUseProgram(programs_.others[kShown].name());
+    glUseProgram(moving_programs().others[kShown].name());
     glUniform4fv(0, 1, &kPaper.x);
     glEnable(GL_POLYGON_OFFSET_FILL);
     glPolygonOffset(-1.0F, -4.0F);  // reverse Z: away from the eye
@@ -226,7 +248,7 @@ void TerrainPass::draw_wireframe() const {
 
 void TerrainPass::draw_levels(const terrain::Selection& selection) const {
     begin(terrain());
-    glUseProgram(programs_.others[kShown].name());
+    glUseProgram(moving_programs().others[kShown].name());
     const DrawCommands& all = list_.all();
     for (std::size_t i = 0; i < selection.draws.size(); ++i) {
         const glm::vec4 paint = colour_of(selection.draws[i]);

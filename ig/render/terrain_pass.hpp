@@ -61,22 +61,26 @@ class TerrainPass {
     };
     enum Other : std::size_t { kSurface, kDepth, kShown };
 
-    /// How a method's vertices move; not at all: false and 0.
+    /// How a program moves vertices; not at all: false and 0.
     struct Motion {
         bool nested = false;
         int sliding_parts = 0;  ///< LodMethod's
-        [[nodiscard]] bool any() const { return nested || sliding_parts > 0; }
     };
 
     [[nodiscard]] static tl::expected<Programs, std::string> link(bool nested, const Motion& motion);
-    TerrainPass(Programs programs, std::span<const std::uint16_t> indices, const Motion& motion);
+    TerrainPass(Programs programs, std::optional<Programs> sliding, const terrain::LodMethod& method);
+    static void draw_shaded(const Programs& programs, const SortedCommands& commands);
+    void draw_each(Other program) const;
     void describe_vertices() const;
     void begin(const DrawnTerrain& terrain) const;
-    [[nodiscard]] const Programs& still_programs() const { return motion_.any() ? *motionless_ : programs_; }
+    [[nodiscard]] const Programs& still_programs() const { return nested_ ? *motionless_ : programs_; }
+    /// For draws whose vertices slide or do not.
+    [[nodiscard]] const Programs& moving_programs() const { return sliding_ ? *sliding_ : programs_; }
 
     Programs programs_;
-    std::optional<Programs> motionless_;  ///< of a method whose vertices move
-    Motion motion_;
+    std::optional<Programs> sliding_;     ///< of a method with tiles that slide, for those that do
+    std::optional<Programs> motionless_;  ///< of nested meshes
+    bool nested_;
     GlVertexArray layout_;
     std::optional<GlBuffer> shared_indices_;  ///< of a method with one list for all draws
     GlTexture noise_;

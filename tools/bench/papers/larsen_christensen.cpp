@@ -21,7 +21,7 @@ namespace {
 constexpr double kTileTauPx = 1.0;
 /// Eyes drawn: so far apart that ten seconds are flown, so near that none jumps over a morph.
 constexpr std::size_t kFlownFrames = 300, kFramesAnEye = 8, kEyesAMeasure = 8;
-constexpr TurnOptions kTurns{.turns = 5};
+constexpr TurnOptions kTurns{.turns = 4};
 
 /// The field has 4097 posts a side down to this depth, half as many with each depth less.
 constexpr int kFullDepth = 13, kFullPosts = 4097;
