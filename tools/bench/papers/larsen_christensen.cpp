@@ -26,17 +26,17 @@ constexpr TurnOptions kTurns{.turns = 4};
 /// The field has 4097 posts a side down to this depth, half as many with each depth less.
 constexpr int kFullDepth = 13, kFullPosts = 4097;
 
-struct PaperLine {
+struct TimedLine {
     int posts = 0;                     ///< of the terrain, a side
     int tile = 0;                      ///< of a tile
     double with = 0.0, without = 0.0;  ///< frames a second
 };
-constexpr std::array<PaperLine, 6> kPaperLines{{{513, 17, 66.25, 67.07},
-                                                {513, 33, 39.49, 38.17},
-                                                {1025, 17, 28.31, 28.51},
-                                                {1025, 33, 39.71, 38.12},
-                                                {2049, 17, 8.65, 7.66},
-                                                {2049, 33, 18.59, 18.05}}};
+constexpr std::array<TimedLine, 6> kTable7{{{513, 17, 66.25, 67.07},
+                                            {513, 33, 39.49, 38.17},
+                                            {1025, 17, 28.31, 28.51},
+                                            {1025, 33, 39.71, 38.12},
+                                            {2049, 17, 8.65, 7.66},
+                                            {2049, 33, 18.59, 18.05}}};
 
 double cpu_ms(const TurnFrame& frame) { return frame.cpu_ms; }
 double selection_ms(const TurnFrame& frame) { return frame.selection_ms; }
@@ -49,7 +49,7 @@ class Cut {
   public:
     static tl::expected<Cut, std::string> make(const PaperSettings& settings, int posts);
 
-    [[nodiscard]] tl::expected<PaperRow, std::string> measure(const PaperLine& line) const;
+    [[nodiscard]] tl::expected<PaperRow, std::string> measure(const TimedLine& line) const;
 
   private:
     Cut(ScratchFolder scratch, std::shared_ptr<const terrain::Database> database,
@@ -117,7 +117,7 @@ tl::expected<ToleranceMatch, std::string> Cut::match_default(double p999_px) con
                       {.pops = false, .faults = false});
 }
 
-tl::expected<PaperRow, std::string> Cut::measure(const PaperLine& line) const {
+tl::expected<PaperRow, std::string> Cut::measure(const TimedLine& line) const {
     ig::SceneOptions without = goal_scene("tile", kTileTauPx);
     without.tile.posts = line.tile;
     without.morph = false;
@@ -174,7 +174,7 @@ tl::expected<PaperTable, std::string> larsen_christensen_table_7(const PaperSett
     }
     std::optional<Cut> cut;
     int posts = 0;
-    for (const PaperLine& line : kPaperLines) {
+    for (const TimedLine& line : kTable7) {
         if (line.posts != posts) {
             auto made = Cut::make(settings, line.posts);
             if (!made) return tl::unexpected(made.error());
