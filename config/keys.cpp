@@ -24,6 +24,7 @@ constexpr std::array kLodCaches = {"sound"sv, "four_corner"sv, "off"sv};
 constexpr std::array kScreenErrors = {"bound"sv, "paper"sv};
 constexpr std::array kTilePosts = {"9"sv, "17"sv, "33"sv};
 constexpr std::array kMorphBy = {"distance"sv, "time"sv, "frames"sv};
+constexpr std::array kHyperSelects = {"block"sv, "vertex"sv};
 constexpr std::array kDrawTimes = {"always"sv, "on_change"sv};
 
 template <typename Enum>
@@ -48,6 +49,8 @@ constexpr std::span<const std::string_view> names_of() {
         return kTilePosts;
     } else if constexpr (std::is_same_v<Enum, MorphBy>) {
         return kMorphBy;
+    } else if constexpr (std::is_same_v<Enum, HyperSelect>) {
+        return kHyperSelects;
     } else if constexpr (std::is_same_v<Enum, DrawWhen>) {
         return kDrawTimes;
     } else {
@@ -224,10 +227,11 @@ constexpr std::array kKeys = {
           row<kView, &ViewSettings::cigi_view>("view", "cigi_view",
                                                "Which of a CIGI host's views this channel draws")),
 
-    text(
-        row<kLod, &LodSettings::method>(
-            "lod", "method", "How blocks and their triangles are chosen: nested, tile, bintree or selective"),
-        "the name of a method", not_empty),
+    text(row<kLod, &LodSettings::method>(
+             "lod", "method",
+             "How blocks and their triangles are chosen: nested, tile, bintree, selective or "
+             "hyperblock"),
+         "the name of a method", not_empty),
     number(0.0, 1.0,
            row<kLod, &LodSettings::slack>("lod", "slack",
                                           "What a choice of level that is kept from frame to frame may "
@@ -260,6 +264,20 @@ constexpr std::array kKeys = {
     whole(1, 100000,
           row<kLod, &LodSettings::rebuilds>(
               "lod", "rebuilds", "Tiles of the method tile that may change their mesh's level in a frame")),
+    choice(kHyperSelects,
+           row<kLod, &LodSettings::hyper_select>(
+               "lod", "hyper_select",
+               "What the method hyperblock selects: blocks, by one of the triangulations made ahead; or, to "
+               "compare, single vertices (QuadTIN)")),
+    whole(0, 3,
+          row<kLod, &LodSettings::hyper_level>(
+              "lod", "hyper_level",
+              "How often the method hyperblock halves a tile of 32 x 32 cells to get its blocks")),
+    number(0.0, 100.0,
+           row<kLod, &LodSettings::hyper_blocks_tau_px>(
+               "lod", "hyper_blocks_tau_px",
+               "Tolerance that the method hyperblock chooses tiles for, where it is less than tau_px: then "
+               "selection takes equally long at all tolerances above. 0: tau_px")),
 
     choice(kShadings,
            row<kRender, &RenderSettings::shading>(

@@ -18,6 +18,7 @@ enum class LodCache : std::uint8_t { Sound, FourCorner, Off };
 enum class MorphBy : std::uint8_t { Distance, Time, Frames };
 enum class TilePosts : std::uint8_t { Posts9, Posts17, Posts33 };
 enum class ScreenError : std::uint8_t { Bound, Paper };
+enum class HyperSelect : std::uint8_t { Block, Vertex };
 enum class DrawWhen : std::uint8_t { Always, OnChange };
 
 struct TerrainSettings {
@@ -57,6 +58,10 @@ struct LodSettings {
     TilePosts tile_posts = TilePosts::Posts33;      ///< of tile: posts of a tile, a side
     MorphBy morph_by = MorphBy::Distance;           ///< of tile: what moves a morph on
     std::uint32_t rebuilds = 16;  ///< of tile: tiles that may change level in a frame, 1..100000
+    HyperSelect hyper_select = HyperSelect::Block;  ///< of hyperblock: what is selected
+    std::uint32_t hyper_level = 2;                  ///< of hyperblock: depth of its blocks in a tile, 0..3
+    double hyper_blocks_tau_px =
+        0.0;  ///< of hyperblock: tolerance that tiles are chosen for; 0: tau's; 0..100
 };
 
 struct RenderSettings {

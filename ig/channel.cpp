@@ -154,12 +154,19 @@ terrain::tiles::Options tile_options(const config::LodSettings& lod) {
             .rebuilds = lod.rebuilds};
 }
 
+terrain::hyperblock::Options hyperblock_options(const config::LodSettings& lod) {
+    using terrain::hyperblock::SelectBy;
+    return {lod.hyper_select == config::HyperSelect::Vertex ? SelectBy::Vertex : SelectBy::Block,
+            static_cast<int>(lod.hyper_level), lod.hyper_blocks_tau_px};
+}
+
 SceneOptions scene_options(const config::Settings& settings, const FrameTracks& tracks) {
     SceneOptions options;
     options.lod_method = settings.lod.method;
     options.triangle_budget = settings.lod.triangles;
     options.selective = selective_options(settings.lod);
     options.tile = tile_options(settings.lod);
+    options.hyperblock = hyperblock_options(settings.lod);
     options.tau_px = settings.terrain.tau_px;
     options.slack = settings.lod.slack;
     options.morph = settings.lod.morph == config::Switch::On;

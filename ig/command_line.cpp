@@ -39,7 +39,7 @@ constexpr KeyFlag kKeyFlags[] = {
     {"--record", "output.record", "FILE", "Write the frame record, one JSON line a frame"},
     {"--trace", "output.trace", "FILE", "Write a trace of where the time goes, for ui.perfetto.dev"},
     {"--tau", "terrain.tau_px", "PIXELS", "Largest error of the drawn terrain"},
-    {"--lod", "lod.method", "METHOD", "Level-of-detail method: nested, tile, bintree, selective"},
+    {"--lod", "lod.method", "METHOD", "Level-of-detail method: nested, tile, bintree, selective, hyperblock"},
     {"--show", "render.show", "WHAT", "terrain, wireframe, or levels: a colour for every level of detail"},
 };
 

@@ -236,7 +236,8 @@ tl::expected<std::unique_ptr<Scene>, std::string> Scene::create(
     terrain::LodMethodOptions of_method{.cull = options.horizon_culling,
                                         .triangle_budget = options.triangle_budget,
                                         .selective = options.selective,
-                                        .tile = options.tile};
+                                        .tile = options.tile,
+                                        .hyperblock = options.hyperblock};
     of_method.tile.morph = options.morph;
     auto method = terrain::make_lod_method(options.lod_method, of_method);
     if (!method)

@@ -15,6 +15,7 @@
 #include "ig/shading.hpp"
 #include "ig/trace/frame_tracks.hpp"
 #include "ig/view.hpp"
+#include "terrain/lod/hyperblock/hyperblock_options.hpp"
 #include "terrain/lod/selective/selective_options.hpp"
 #include "terrain/lod/tile/tile_options.hpp"
 
@@ -26,11 +27,12 @@ class LodMethod;
 namespace eyepoint::ig {
 
 struct SceneOptions {
-    std::string lod_method = "nested";        ///< see terrain::lod_method_names()
-    double tau_px = 1.0;                      ///< tolerance, pixels
-    std::uint32_t triangle_budget = 0;        ///< terrain::LodMethodOptions
-    terrain::selective::Options selective{};  ///< terrain::LodMethodOptions
-    terrain::tiles::Options tile{};           ///< terrain::LodMethodOptions; `morph` is below
+    std::string lod_method = "nested";          ///< see terrain::lod_method_names()
+    double tau_px = 1.0;                        ///< tolerance, pixels
+    std::uint32_t triangle_budget = 0;          ///< terrain::LodMethodOptions
+    terrain::selective::Options selective{};    ///< terrain::LodMethodOptions
+    terrain::tiles::Options tile{};             ///< terrain::LodMethodOptions; `morph` is below
+    terrain::hyperblock::Options hyperblock{};  ///< terrain::LodMethodOptions
     double slack = 0.1;  ///< s as a share of tau: what a choice of level once made may exceed tau by
     bool morph = true;   ///< vertices slide from level to level; otherwise they jump
     bool horizon_culling = false;  ///< leave out what nearer terrain hides: the same picture; nested alone

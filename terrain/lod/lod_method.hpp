@@ -12,6 +12,7 @@
 #include <glm/vec3.hpp>
 
 #include "terrain/geodesy/position.hpp"
+#include "terrain/lod/hyperblock/hyperblock_options.hpp"
 #include "terrain/lod/selective/selective_options.hpp"
 #include "terrain/lod/tile/tile_options.hpp"
 #include "terrain/pager/pager.hpp"
@@ -129,6 +130,7 @@ struct LodMethodOptions {
     std::uint32_t triangle_budget = 0;
     selective::Options selective{};
     tiles::Options tile{};
+    hyperblock::Options hyperblock{};
 };
 /// nullptr for an unknown name.
 [[nodiscard]] std::unique_ptr<LodMethod> make_lod_method(std::string_view name,

@@ -126,7 +126,8 @@ TEST_P(OwnTriangles, SampleFlightHasNoCracksCompleteAndWhileBlocksAreArriving) {
     EXPECT_GE(sweep(renderer, eyes, 30, Loading::Complete, GetParam()).frames, 50);
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, OwnTriangles, ::testing::Values("bintree", "selective", "tile"),
+INSTANTIATE_TEST_SUITE_P(Methods, OwnTriangles,
+                         ::testing::Values("bintree", "selective", "tile", "hyperblock"),
                          [](const auto& instance) { return instance.param; });
 
 /// Real terrain from SRTM over a global DEM, made once for all tests of this file that need it.

@@ -134,7 +134,9 @@ INSTANTIATE_TEST_SUITE_P(Earth, Horizon,
                                            Ground{"North47Bintree", 47.0, 8.0, "bintree"},
                                            Ground{"NorthPoleBintree", 89.995, 120.0, "bintree"},
                                            Ground{"North47Selective", 47.0, 8.0, "selective"},
-                                           Ground{"NorthPoleSelective", 89.995, 120.0, "selective"}),
+                                           Ground{"NorthPoleSelective", 89.995, 120.0, "selective"},
+                                           Ground{"North47Hyperblock", 47.0, 8.0, "hyperblock"},
+                                           Ground{"NorthPoleHyperblock", 89.995, 120.0, "hyperblock"}),
                          [](const auto& instance) { return instance.param.name; });
 
 }  // namespace

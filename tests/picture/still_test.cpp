@@ -68,7 +68,9 @@ INSTANTIATE_TEST_SUITE_P(Ways, StillMesh,
                                            Way{"BintreeDeferred", "bintree", ig::Shading::Deferred},
                                            Way{"BintreeForward", "bintree", ig::Shading::Forward},
                                            Way{"SelectiveDeferred", "selective", ig::Shading::Deferred},
-                                           Way{"SelectiveForward", "selective", ig::Shading::Forward}),
+                                           Way{"SelectiveForward", "selective", ig::Shading::Forward},
+                                           Way{"HyperblockDeferred", "hyperblock", ig::Shading::Deferred},
+                                           Way{"HyperblockForward", "hyperblock", ig::Shading::Forward}),
                          [](const auto& instance) { return instance.param.name; });
 
 }  // namespace

@@ -1,5 +1,5 @@
-/// Seeded random walks over analytic terrain: the methods nested and selective keep to the tolerance; bintree
-/// and tile have no such bound, and their meshes are as whole.
+/// Seeded random walks over analytic terrain: the methods nested, selective and hyperblock keep to the
+/// tolerance; bintree and tile have no such bound, and their meshes are as whole.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -67,7 +67,10 @@ INSTANTIATE_TEST_SUITE_P(
                       WalkPlace{"AntimeridianTile", kAntimeridian, "tile"},
                       WalkPlace{"PoleTile", kPole, "tile"}, WalkPlace{"HillsSelective", kHills, "selective"},
                       WalkPlace{"AntimeridianSelective", kAntimeridian, "selective"},
-                      WalkPlace{"PoleSelective", kPole, "selective"}),
+                      WalkPlace{"PoleSelective", kPole, "selective"},
+                      WalkPlace{"HillsHyperblock", kHills, "hyperblock"},
+                      WalkPlace{"AntimeridianHyperblock", kAntimeridian, "hyperblock"},
+                      WalkPlace{"PoleHyperblock", kPole, "hyperblock"}),
     [](const auto& instance) { return instance.param.name; });
 
 }  // namespace

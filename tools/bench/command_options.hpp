@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "terrain/lod/hyperblock/hyperblock_options.hpp"
 #include "terrain/lod/selective/selective_options.hpp"
 #include "terrain/lod/tile/tile_options.hpp"
 #include "tools/bench/bench_run.hpp"
@@ -23,8 +24,12 @@ void add_selective_options(CLI::App& command, terrain::selective::Options& optio
 /// --tile-posts, --morph-by, --rebuilds. `options` outlives the parsing.
 void add_tile_options(CLI::App& command, terrain::tiles::Options& options);
 
-/// --terrain, --size, --tau, --lod, --triangles, those of selective and tile, --pictures, --every, --record,
-/// --sentinel. `options` outlives the parsing.
+/// --hyper-select, --hyper-level, --hyper-blocks-tau. `options` outlives the parsing.
+void add_hyperblock_options(CLI::App& command, terrain::hyperblock::Options& options);
+
+/// --terrain, --size, --tau, --lod, --triangles, those of selective, tile and hyperblock, --pictures,
+/// --every,
+/// --record, --sentinel. `options` outlives the parsing.
 void add_drawing_options(CLI::App& command, BenchOptions& options, bool terrain_required);
 
 void add_flight_command(CLI::App& program);

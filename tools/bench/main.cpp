@@ -65,6 +65,25 @@ void add_tile_options(CLI::App& command, terrain::tiles::Options& options) {
         ->capture_default_str();
 }
 
+void add_hyperblock_options(CLI::App& command, terrain::hyperblock::Options& options) {
+    using terrain::hyperblock::SelectBy;
+    static const std::map<std::string, SelectBy> selects{{"block", SelectBy::Block},
+                                                         {"vertex", SelectBy::Vertex}};
+    command.add_option("--hyper-select", options.select_by, "hyperblock alone: what is selected")
+        ->transform(CLI::CheckedTransformer(selects))
+        ->option_text("block|vertex");
+    command
+        .add_option("--hyper-level", options.hyper_level,
+                    "hyperblock alone: how often a tile is halved to get blocks")
+        ->check(CLI::Range(0, terrain::hyperblock::kMostHyperLevel))
+        ->capture_default_str();
+    command
+        .add_option("--hyper-blocks-tau", options.blocks_tau_px,
+                    "hyperblock alone: tolerance that tiles are chosen for, pixels; 0: --tau")
+        ->check(CLI::Range(0.0, 100.0))
+        ->capture_default_str();
+}
+
 void add_drawing_options(CLI::App& command, BenchOptions& options, bool terrain_required) {
     auto* terrain = command.add_option("--terrain", options.terrain, "terrain database")->type_name("DB");
     if (terrain_required) terrain->required();
@@ -77,6 +96,7 @@ void add_drawing_options(CLI::App& command, BenchOptions& options, bool terrain_
                        "bintree alone: triangles a frame at most; 0: no limit");
     add_selective_options(command, options.scene.selective);
     add_tile_options(command, options.scene.tile);
+    add_hyperblock_options(command, options.scene.hyperblock);
     command.add_option("--visibility", options.scene.visibility_m, "metres")->capture_default_str();
     command.add_option("--pictures", options.pictures, "folder for pictures")->type_name("DIR");
     command.add_option("--every", options.picture_every, "a picture every so many frames")

@@ -157,6 +157,7 @@ void add_measuring(CLI::App& command, MeasureRequest& request) {
                        "bintree alone: triangles a frame at most; 0: no limit");
     add_selective_options(command, request.flight.selective);
     add_tile_options(command, request.flight.tile);
+    add_hyperblock_options(command, request.flight.hyperblock);
     command.add_option("--every", request.options.every, "measure every so-manieth frame")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();

@@ -7,8 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "terrain/geodesy/earth.hpp"
-
 namespace eyepoint::tools {
 
 namespace {
@@ -26,8 +24,14 @@ ig::Eyepoint eye_at(const PathPoint& point, const PlanarField& field, ig::Pictur
         posts.south_deg + (posts.north_deg - posts.south_deg) * point.north_m / field.side_m,
         posts.west_deg + (posts.east_deg - posts.west_deg) * point.east_m / field.side_m,
         terrain::EllipsoidalHeight{point.height_m}};
-    const glm::dmat3 body = terrain::body_axes(place.latitude_deg, place.longitude_deg,
-                                               {point.heading_rad, point.pitch_rad, 0.0});
+    return eye_over(place, {point.heading_rad, point.pitch_rad, 0.0}, size, vertical_fov_deg);
+}
+
+}  // namespace
+
+ig::Eyepoint eye_over(const terrain::Geodetic& place, const terrain::Attitude& attitude, ig::PictureSize size,
+                      double vertical_fov_deg) {
+    const glm::dmat3 body = terrain::body_axes(place.latitude_deg, place.longitude_deg, attitude);
     const double top = std::tan(vertical_fov_deg * 3.14159265358979323846 / 360.0);
     const double right = top * size.width_px / size.height_px;
     return {{.eye_ecef = terrain::to_ecef(place),
@@ -41,8 +45,6 @@ ig::Eyepoint eye_at(const PathPoint& point, const PlanarField& field, ig::Pictur
              .near_m = 10.0},
             place};
 }
-
-}  // namespace
 
 tl::expected<std::vector<ig::FlightEye>, std::string> read_planar_path(const std::filesystem::path& file,
                                                                        const PlanarField& field,

@@ -127,4 +127,10 @@ void append_dike(Edge edge, EdgeVertices near, EdgeVertices far, const BlockData
     });
 }
 
+void append_dikes(const FarSides& far, std::span<const EdgeVertices, 4> own, const BlockData& block,
+                  std::vector<std::uint16_t>& indices) {
+    for (std::size_t edge = 0; edge < far.size(); ++edge)
+        if (far[edge] != 0) append_dike(kEdges[edge], own[edge], far[edge] & ~kDike, block, indices);
+}
+
 }  // namespace eyepoint::terrain::selective

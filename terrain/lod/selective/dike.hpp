@@ -3,12 +3,13 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "terrain/block/block.hpp"
-#include "terrain/tiling/tile_id.hpp"
+#include "terrain/tiling/tile_edges.hpp"
 
 namespace eyepoint::terrain::selective {
 
@@ -45,5 +46,44 @@ inline constexpr EdgeVertices kMiddleVertex = 1U << 16;
 /// The same on a block's edge: appends corners as numbers of Block::vertices.
 void append_dike(Edge edge, EdgeVertices near, EdgeVertices far, const BlockData& block,
                  std::vector<std::uint16_t>& indices);
+
+/// What is across each edge (kEdges) of a block that owns the dike there: the vertices on the far side, as
+/// posts of the block, and kDike beside their bits; 0: it owns none.
+using FarSides = std::array<std::uint32_t, 4>;
+inline constexpr std::uint32_t kDike = 1;
+
+/// A dike is made of vertices that one block has, all of them, so it is drawn with that block's: of two of
+/// one depth the western or southern one's; of two depths the finer one's, whose posts the coarser one's are.
+/// Only where a coarser block leaves out the vertex in which two finer ones meet on its edge, it has a dike
+/// up to that.
+/// own: the block's vertices on its edges. across(edge): the leaves there, as of TileCut::across;
+/// border_of(leaf): their vertices.
+template <typename Border, typename Across, typename BorderOf>
+[[nodiscard]] FarSides far_sides(TileId tile, const Border& own, const Across& across,
+                                 const BorderOf& border_of) {
+    FarSides far{};
+    for (const Edge edge : kEdges) {
+        const auto leaves = across(edge);
+        const auto at = static_cast<std::size_t>(edge),
+                   opposite_at = static_cast<std::size_t>(opposite(edge));
+        if (leaves[0] != leaves[1]) {
+            far[at] = own[at] | kMiddleVertex | kDike;
+            continue;
+        }
+        if (leaves[0] == nullptr) continue;
+        const EdgeVertices beyond = border_of(*leaves[0])[opposite_at];
+        if (leaves[0]->tile.depth == tile.depth) {
+            if (edge == Edge::East || edge == Edge::North) far[at] = beyond | kDike;
+            continue;
+        }
+        const bool upright = edge == Edge::West || edge == Edge::East;
+        far[at] = half_of_edge(beyond, static_cast<int>((upright ? tile.y : tile.x) & 1U)) | kDike;
+    }
+    return far;
+}
+
+/// All dikes of a block.
+void append_dikes(const FarSides& far, std::span<const EdgeVertices, 4> own, const BlockData& block,
+                  std::vector<std::uint16_t>& indices);
 
 }  // namespace eyepoint::terrain::selective

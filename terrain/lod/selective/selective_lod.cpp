@@ -9,11 +9,9 @@
 #include "terrain/lod/selective/dike.hpp"
 #include "terrain/lod/selective/screen_error.hpp"
 #include "terrain/lod/twist.hpp"
-#include "terrain/tiling/tile_edges.hpp"
 
 namespace eyepoint::terrain {
 
-using selective::BorderSelection;
 using selective::kRanks;
 using selective::Rank;
 using selective::ReuseTest;
@@ -23,9 +21,6 @@ namespace {
 /// What a block may use of the tolerance where it is drawn with all its posts; the rest is its selection's.
 /// The less, the more blocks and the fewer triangles.
 constexpr double kBlockShare = 0.7;
-
-/// Beside the bits of selective::EdgeVertices.
-constexpr std::uint32_t kDike = 1;
 
 /// Left of what a selection stands for after it was worked out in floats.
 constexpr double kStandingKept = 0.999;
@@ -114,47 +109,18 @@ void SelectiveLod::select_anew(Held& block, const LodView& view) {
                           odometer_m_ + kStandingKept * static_cast<double>(block.selection.stands_for_m())};
 }
 
-/// A dike is made of vertices that one block has, all of them, so it is drawn with that block's: of two of
-/// one depth the western or southern one's; of two depths the finer one's, whose posts the coarser one's are.
-/// Only where a coarser block leaves out the vertex in which two finer ones meet on its edge, it has a dike
-/// up to that.
-SelectiveLod::FarSides SelectiveLod::far_sides(const Held& block) const {
-    FarSides far{};
-    const TileNode& node = *block.node;
-    for (const Edge edge : kEdges) {
-        const auto across = cut_.across(node, edge);
-        const auto at = static_cast<std::size_t>(edge),
-                   opposite_at = static_cast<std::size_t>(opposite(edge));
-        if (across[0] != across[1]) {
-            far[at] = block.selection.border()[at] | selective::kMiddleVertex | kDike;
-            continue;
-        }
-        if (across[0] == nullptr) continue;
-        const std::uint32_t beyond = held(*across[0]).selection.border()[opposite_at];
-        if (across[0]->tile.depth == node.tile.depth) {
-            if (edge == Edge::East || edge == Edge::North) far[at] = beyond | kDike;
-            continue;
-        }
-        const bool upright = edge == Edge::West || edge == Edge::East;
-        const int half = static_cast<int>((upright ? node.tile.y : node.tile.x) & 1U);
-        far[at] = selective::half_of_edge(beyond, half) | kDike;
-    }
-    return far;
-}
-
 void SelectiveLod::make_dikes() {
     for (std::size_t i = 0; i < drawn_.size(); ++i)
         drawn_[i]->node->mark.draw = static_cast<std::uint32_t>(i);
     for (Held* block : drawn_) {
-        const FarSides far = far_sides(*block);
+        const TileNode& node = *block->node;
+        const selective::FarSides far = selective::far_sides(
+            node.tile, block->selection.border(), [&](Edge edge) { return cut_.across(node, edge); },
+            [&](const TileNode& leaf) { return held(leaf).selection.border(); });
         if (!block->changed && far == block->far_sides) continue;
         block->far_sides = far;
         block->mesh.indices.resize(block->own_indices);
-        for (std::size_t edge = 0; edge < far.size(); ++edge) {
-            if (far[edge] == 0) continue;
-            selective::append_dike(kEdges[edge], block->selection.border()[edge], far[edge] & ~kDike,
-                                   block->node->block->data, block->mesh.indices);
-        }
+        selective::append_dikes(far, block->selection.border(), node.block->data, block->mesh.indices);
         block->mesh.version = ++version_;
     }
 }

@@ -13,6 +13,7 @@
 #include "terrain/lod/lod_method.hpp"
 #include "terrain/lod/selective/block_posts.hpp"
 #include "terrain/lod/selective/block_selection.hpp"
+#include "terrain/lod/selective/dike.hpp"
 #include "terrain/lod/selective/lod_cache.hpp"
 #include "terrain/lod/selective/selective_options.hpp"
 #include "terrain/lod/tile_cut.hpp"
@@ -50,10 +51,6 @@ class SelectiveLod final : public LodMethod {
     [[nodiscard]] SelectionAudit audit(const LodView& view) const;
 
   private:
-    /// What is across an edge, for a block that owns the dike there: the vertices on the far side, as posts
-    /// of the block, and kDike; 0: it owns none.
-    using FarSides = std::array<std::uint32_t, 4>;
-
     struct Held {
         TileNode* node = nullptr;
         std::uint64_t used_frame = 0;
@@ -61,9 +58,9 @@ class SelectiveLod final : public LodMethod {
         std::array<Ecef, 4> corners{};
         selective::BlockSelection selection;
         selective::SelectedFor selected_for;
-        std::size_t own_indices = 0;  ///< of the mesh's; then come those of dikes
-        FarSides far_sides{};         ///< of the dikes in the mesh
-        bool changed = false;         ///< selected anew in this frame
+        std::size_t own_indices = 0;      ///< of the mesh's; then come those of dikes
+        selective::FarSides far_sides{};  ///< of the dikes in the mesh
+        bool changed = false;             ///< selected anew in this frame
         BlockMesh mesh;
     };
 
@@ -75,7 +72,6 @@ class SelectiveLod final : public LodMethod {
     [[nodiscard]] bool stands(const Held& block, const LodView& view) const;
     void select_anew(Held& block, const LodView& view);
     void make_dikes();
-    [[nodiscard]] FarSides far_sides(const Held& block) const;
     [[nodiscard]] const Held& held(const TileNode& leaf) const { return *drawn_[leaf.mark.draw]; }
     void emit();
 

@@ -15,7 +15,8 @@ tl::expected<std::unique_ptr<LodFlight>, std::string> LodFlight::create(
     auto method = terrain::make_lod_method(options.lod_method, {.cull = options.cull,
                                                                 .triangle_budget = options.triangle_budget,
                                                                 .selective = options.selective,
-                                                                .tile = options.tile});
+                                                                .tile = options.tile,
+                                                                .hyperblock = options.hyperblock});
     if (!method) {
         return tl::unexpected(fmt::format("no LOD method is called '{}'; there is {}", options.lod_method,
                                           fmt::join(terrain::lod_method_names(), ", ")));

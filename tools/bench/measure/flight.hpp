@@ -20,6 +20,7 @@ struct FlightOptions {
     std::uint32_t triangle_budget = 0;  ///< terrain::LodMethodOptions
     terrain::selective::Options selective{};
     terrain::tiles::Options tile{};
+    terrain::hyperblock::Options hyperblock{};
     unsigned loader_threads = 1;
     std::uint64_t block_cache_bytes =
         8ULL << 30;  ///< so much that a path flown twice loads nothing the second time

@@ -14,8 +14,10 @@ struct PaperSettings {
     std::filesystem::path programs;     ///< folder of Eyepoint's programs
     std::filesystem::path synth_field;  ///< database of eyepoint-terrain synth --benchmark-field
     std::filesystem::path benchmark;    ///< folder of the benchmark field and its paths; empty: not there
-    double seconds = 30.0;              ///< of flight, at 30 frames a second
-    std::size_t every = 90;             ///< post error is measured in one frame of so many
+    /// Database of a cut of 2049 x 2049 posts; empty: the synthetic field.
+    std::filesystem::path cut_field;
+    double seconds = 30.0;   ///< of flight, at 30 frames a second
+    std::size_t every = 90;  ///< post error is measured in one frame of so many
 };
 
 /// On failure: one sentence.

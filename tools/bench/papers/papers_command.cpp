@@ -8,6 +8,7 @@
 #include "tools/bench/command_options.hpp"
 #include "tools/bench/goals/goal_line.hpp"
 #include "tools/bench/papers/he_wang_liu.hpp"
+#include "tools/bench/papers/hyperblock_quadtin.hpp"
 #include "tools/bench/papers/larsen_christensen.hpp"
 #include "tools/report/page.hpp"
 
@@ -20,7 +21,8 @@ struct Named {
     PaperExperiment experiment;
 };
 constexpr std::array kExperiments{Named{"He, Wang & Liu, table 1", he_wang_liu_table_1},
-                                  Named{"Larsen & Christensen, table 7", larsen_christensen_table_7}};
+                                  Named{"Larsen & Christensen, table 7", larsen_christensen_table_7},
+                                  Named{"HyperBlock-QuadTIN, figures 14 to 16", hyperblock_figures_14_to_16}};
 
 struct PapersRequest {
     PaperSettings settings;
@@ -70,6 +72,10 @@ void add_papers_command(CLI::App& program) {
         ->type_name("DIR");
     command->add_option("--only", request->only, "only experiments with this in their names")
         ->type_name("TEXT");
+    command
+        ->add_option("--cut-field", request->settings.cut_field,
+                     "database of a cut of 2049 x 2049 posts; without it the synthetic field stands in")
+        ->type_name("DB");
     command->add_option("--seconds", request->settings.seconds, "of each flight")
         ->check(CLI::Range(1.0, 600.0))
         ->capture_default_str();
@@ -83,7 +89,8 @@ void add_papers_command(CLI::App& program) {
     command->footer(
         "Make the field once, then measure:\n"
         "  eyepoint-terrain synth --benchmark-field 16385 -o FIELD\n"
-        "  eyepoint-bench papers --synth-field FIELD -o docs/results");
+        "  eyepoint-terrain synth --benchmark-field 2049 -o CUT\n"
+        "  eyepoint-bench papers --synth-field FIELD --cut-field CUT -o docs/results");
 }
 
 }  // namespace eyepoint::tools
