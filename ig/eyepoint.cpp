@@ -5,16 +5,12 @@
 
 #include <glm/trigonometric.hpp>
 
+#include "ig/motion/dead_reckoning.hpp"
 #include "terrain/geodesy/earth.hpp"
 
 namespace eyepoint::ig {
 
 namespace {
-
-terrain::Attitude attitude_of(const net::AttitudeDeg& attitude) {
-    return {glm::radians(attitude.yaw_deg), glm::radians(attitude.pitch_deg),
-            glm::radians(attitude.roll_deg)};
-}
 
 /// Body axes (forward, right, down) to view axes (right, up, backward); both in the frame of `body`.
 glm::dmat3 view_axes(const glm::dmat3& body) { return {body[1], -body[2], -body[0]}; }

@@ -4,16 +4,16 @@
 #include <cmath>
 #include <ctime>
 
+#include "net/nanoseconds.hpp"
+
 namespace eyepoint::ig {
 
 namespace {
 
-constexpr std::int64_t kNsPerSecond = 1'000'000'000;
-
 std::int64_t read_clock_ns(clockid_t id) {
     timespec now{};
     clock_gettime(id, &now);
-    return now.tv_sec * kNsPerSecond + now.tv_nsec;
+    return now.tv_sec * net::kNanosecondsPerSecond + now.tv_nsec;
 }
 
 }  // namespace
@@ -23,13 +23,14 @@ std::int64_t SystemClock::now_ns() { return read_clock_ns(CLOCK_MONOTONIC); }
 std::int64_t SystemClock::realtime_ns() { return read_clock_ns(CLOCK_REALTIME); }
 
 void SystemClock::sleep_until(std::int64_t deadline_ns) {
-    const timespec deadline{deadline_ns / kNsPerSecond, deadline_ns % kNsPerSecond};
+    const timespec deadline{deadline_ns / net::kNanosecondsPerSecond,
+                            deadline_ns % net::kNanosecondsPerSecond};
     while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &deadline, nullptr) == EINTR) {
     }
 }
 
 FrameClock::FrameClock(Clock& clock, double rate_hz)
-    : clock_(clock), period_ns_(kNsPerSecond / rate_hz), start_ns_(clock.now_ns()) {}
+    : clock_(clock), period_ns_(net::kNanosecondsPerSecond / rate_hz), start_ns_(clock.now_ns()) {}
 
 std::int64_t FrameClock::deadline_ns(std::uint64_t slot) const {
     return start_ns_ + std::llround(static_cast<double>(slot - start_slot_) * period_ns_);

@@ -9,12 +9,12 @@
 
 #include "ig/gpu_fence.hpp"
 #include "ig/process_usage.hpp"
+#include "net/nanoseconds.hpp"
 
 namespace eyepoint::ig {
 
 namespace {
 
-constexpr double kNsPerSecond = 1e9;
 /// Between two turns: longer than a slow frame takes.
 constexpr double kStoppedS = 1.0, kStoppedPeriods = 2.5;
 /// How old an eye may be, and how long it is waited for, after a stop.
@@ -154,7 +154,8 @@ tl::expected<void, std::string> FrameLoop::follow_output_size() {
 std::int64_t FrameLoop::seen_at_ns(const FrameTick& tick) const {
     if (settings_.frame.pacing != config::Pacing::Fixed)
         return parts_.clock.now_ns() + std::llround(usual_frame_ns_);
-    return tick.deadline_ns + std::llround(std::max(kNsPerSecond / settings_.frame.rate_hz, usual_frame_ns_));
+    return tick.deadline_ns +
+           std::llround(std::max(net::kNanosecondsPerSecond / settings_.frame.rate_hz, usual_frame_ns_));
 }
 
 bool FrameLoop::shown_already(const View& view) {

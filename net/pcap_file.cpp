@@ -11,18 +11,19 @@
 #include <pcap/pcap.h>
 #include <unistd.h>
 
+#include "net/nanoseconds.hpp"
 #include "net/udp_datagram.hpp"
 
 namespace eyepoint::net {
-namespace {
-
-constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
-constexpr int kSnapshotBytes = 262144;
 
 struct ClosePcap {
     void operator()(pcap_t* capture) const { pcap_close(capture); }
 };
 using Capture = std::unique_ptr<pcap_t, ClosePcap>;
+
+namespace {
+
+constexpr int kSnapshotBytes = 262144;
 
 std::optional<LinkLayer> link_layer_of(int type) {
     switch (type) {

@@ -12,10 +12,10 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "net/nanoseconds.hpp"
+
 namespace eyepoint::net {
 namespace {
-
-constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
 
 std::string why_not_bound(const std::string& address, std::uint16_t port, int error) {
     switch (error) {

@@ -13,7 +13,7 @@ namespace eyepoint::ig {
 
 namespace {
 
-constexpr std::size_t kTimes = 5;
+constexpr std::size_t kChecks = 5;
 /// Shorter work says more of the driver than of the clocks.
 constexpr double kTellingMs = 0.2;
 
@@ -41,9 +41,9 @@ class TimerQuery {
     GLuint name_ = 0;
 };
 
-double median(std::array<double, kTimes> values) {
+double median(std::array<double, kChecks> values) {
     std::ranges::sort(values);
-    return values[kTimes / 2];
+    return values[kChecks / 2];
 }
 
 }  // namespace
@@ -58,8 +58,8 @@ std::optional<TimerQueryCheck> check_timer_queries(const std::function<void()>& 
     glGetQueryiv(GL_TIME_ELAPSED, GL_QUERY_COUNTER_BITS, &bits);
     if (bits == 0) return std::nullopt;
     const TimerQuery query;
-    std::array<double, kTimes> queried{}, fenced{};
-    for (std::size_t i = 0; i < kTimes; ++i) {
+    std::array<double, kChecks> queried{}, fenced{};
+    for (std::size_t i = 0; i < kChecks; ++i) {
         if (!wait_for_gpu()) return std::nullopt;
         const auto begin = std::chrono::steady_clock::now();
         query.begin();

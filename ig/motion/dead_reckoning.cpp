@@ -13,15 +13,15 @@
 
 namespace eyepoint::ig {
 
-namespace {
-
-/// Below this the nose points straight up or down and yaw and roll turn about one axis; the roll is then 0.
-constexpr double kGimbalLock = 1e-9;
-
 terrain::Attitude attitude_of(const net::AttitudeDeg& attitude) {
     return {glm::radians(attitude.yaw_deg), glm::radians(attitude.pitch_deg),
             glm::radians(attitude.roll_deg)};
 }
+
+namespace {
+
+/// Below this the nose points straight up or down and yaw and roll turn about one axis; the roll is then 0.
+constexpr double kGimbalLock = 1e-9;
 
 /// The altitude is taken for ellipsoidal: over a way this short the geoid does not matter.
 terrain::Ecef place_of(const net::EntityState& entity) {

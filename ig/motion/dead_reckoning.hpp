@@ -6,8 +6,12 @@
 #include <glm/vec3.hpp>
 
 #include "net/host_state.hpp"
+#include "terrain/geodesy/earth.hpp"
 
 namespace eyepoint::ig {
+
+/// The same angles in radians.
+[[nodiscard]] terrain::Attitude attitude_of(const net::AttitudeDeg& attitude);
 
 /// How an entity moves at one moment.
 struct Velocity {

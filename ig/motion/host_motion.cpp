@@ -5,11 +5,12 @@
 
 #include <glm/geometric.hpp>
 
+#include "net/nanoseconds.hpp"
+
 namespace eyepoint::ig {
 
 namespace {
 
-constexpr double kSecondsPerNs = 1e-9;
 /// Of a history of half a second, kept at most every 8 ms.
 constexpr std::size_t kMostSamples = 64;
 /// Two differences, however old; one alone may be a jump.
@@ -28,7 +29,8 @@ constexpr double kJumpM = 5.0;
 constexpr double kJumpSpanS = 0.1;
 
 double span_s(const StateTime& from, const StateTime& to) {
-    const double arrival_s = static_cast<double>(to.arrival_ns - from.arrival_ns) * kSecondsPerNs;
+    const double arrival_s =
+        static_cast<double>(to.arrival_ns - from.arrival_ns) * net::kSecondsPerNanosecond;
     if (!from.host_time_s || !to.host_time_s) return arrival_s;
     const double host_s = *to.host_time_s - *from.host_time_s;
     // Some hosts count another unit: their clock is believed where it agrees with the packets' arrival.
@@ -158,7 +160,7 @@ void HostMotion::estimate() {
 std::optional<HostMotion::MovedOn> HostMotion::at(std::int64_t time_ns) const {
     if (samples_.empty()) return std::nullopt;
     const Sample& newest = samples_.back();
-    const double ahead_s = static_cast<double>(time_ns - newest.time.arrival_ns) * kSecondsPerNs;
+    const double ahead_s = static_cast<double>(time_ns - newest.time.arrival_ns) * net::kSecondsPerNanosecond;
     if (!believed_ || ahead_s <= 0.0) return MovedOn{newest.entity, 0.0};
     const double by_s = std::min(ahead_s, kLongestS);
     return MovedOn{moved_on(newest.entity, *velocity_, by_s), by_s};

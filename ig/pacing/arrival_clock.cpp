@@ -5,11 +5,12 @@
 #include <cstdlib>
 #include <limits>
 
+#include "net/nanoseconds.hpp"
+
 namespace eyepoint::ig {
 
 namespace {
 
-constexpr double kSecondsPerNs = 1e-9;
 constexpr int kTries = 3;
 /// The two clocks are read one after the other; stamps may lie this much outside what they bound.
 constexpr std::int64_t kSlackNs = 1'000'000;
@@ -46,7 +47,7 @@ std::optional<double> ArrivalClock::read(bool emptied) {
     const std::int64_t step_ns = newest_.ahead_ns - before_.ahead_ns;
     const std::int64_t slewing_ns = (newest_.steady_ns - before_.steady_ns) / 10;
     if (std::abs(step_ns) <= std::max(kLeastStepNs, slewing_ns)) return std::nullopt;
-    return static_cast<double>(step_ns) * kSecondsPerNs;
+    return static_cast<double>(step_ns) * net::kSecondsPerNanosecond;
 }
 
 std::int64_t ArrivalClock::steady_ns(net::ArrivalTime arrival) const {

@@ -3,18 +3,18 @@
 #include <cmath>
 #include <utility>
 
+#include "net/nanoseconds.hpp"
+
 namespace eyepoint::ig {
 
-namespace {
-constexpr double kNsPerSecond = 1e9;
-}
+namespace {}
 
 Pacer::Pacer(config::Pacing mode, double rate_hz, Clock& clock, WaitForPacket wait_for_packet)
     : mode_(mode),
       clock_(clock),
       wait_for_packet_(std::move(wait_for_packet)),
       grid_(clock, rate_hz),
-      period_ns_(kNsPerSecond / rate_hz),
+      period_ns_(net::kNanosecondsPerSecond / rate_hz),
       start_ns_(clock.now_ns()) {}
 
 std::int64_t Pacer::deadline_ns(std::uint64_t slot) const {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "terrain/geodesy/earth.hpp"
 #include "terrain/lod/error_level.hpp"
 #include "terrain/lod/painted_detail.hpp"
 
@@ -16,7 +17,6 @@ constexpr std::uint32_t kImageLayers = 512;
 /// The noise repeats every side of a tile of this depth (0.18 degrees, about 20 km), the same over the whole
 /// Earth.
 constexpr int kNoiseDepth = 10;
-constexpr double kMetresPerDegree = 111320.0;
 
 /// Fields of BlockRecord::tree, as in block.glsl.
 constexpr std::uint32_t kQuadrantShift = 8;
@@ -161,7 +161,7 @@ DrawList::BlockRecord DrawList::describe(const terrain::TileNode& node, std::uin
     if (const terrain::TileNode* pictured = nearest_with_image(node)) {
         const auto layer = images_.layer_of(*pictured->block->image, frame);
         const double texel_m =
-            terrain::tile_side_deg(pictured->tile.depth) / terrain::kImageTexels * kMetresPerDegree;
+            terrain::tile_side_deg(pictured->tile.depth) / terrain::kImageTexels * terrain::kMetresPerDegree;
         if (layer) record.image = part_of(pictured->tile, node.tile, *layer);
         record.noise.w = static_cast<float>(texel_m);
     }

@@ -10,7 +10,7 @@ namespace eyepoint::ig {
 namespace {
 
 constexpr int kTexels = 256;
-constexpr int kMipLevels = 9;
+constexpr int kNoiseMipLevels = 9;
 
 /// A number in 0..1 for a lattice point (integer hash by multiplication and shifts).
 double lattice_value(int x, int y, std::uint32_t seed) {
@@ -62,7 +62,7 @@ GlTexture make_noise_texture() {
         texels.push_back({to_byte(patches), to_byte(grain)});
     }
     GlTexture texture{GLenum{GL_TEXTURE_2D}};
-    glTextureStorage2D(texture.name(), kMipLevels, GL_RG8, kTexels, kTexels);
+    glTextureStorage2D(texture.name(), kNoiseMipLevels, GL_RG8, kTexels, kTexels);
     glTextureSubImage2D(texture.name(), 0, 0, 0, kTexels, kTexels, GL_RG, GL_UNSIGNED_BYTE, texels.data());
     glGenerateTextureMipmap(texture.name());
     glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);

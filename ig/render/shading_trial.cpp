@@ -10,8 +10,8 @@ namespace eyepoint::ig {
 
 namespace {
 
-constexpr std::size_t kTimes = 3;
-using Durations = std::array<std::chrono::steady_clock::duration, kTimes>;
+constexpr std::size_t kTrials = 3;
+using Durations = std::array<std::chrono::steady_clock::duration, kTrials>;
 
 std::chrono::steady_clock::duration duration_of(const std::function<void(Shading)>& draw, Shading shading) {
     const auto begin = std::chrono::steady_clock::now();
@@ -22,7 +22,7 @@ std::chrono::steady_clock::duration duration_of(const std::function<void(Shading
 
 auto median(Durations durations) {
     std::sort(durations.begin(), durations.end());
-    return durations[kTimes / 2];
+    return durations[kTrials / 2];
 }
 
 }  // namespace
@@ -32,7 +32,7 @@ Shading faster_shading(const std::function<void(Shading)>& draw) {
     // The first of each pays for what is used for the first time.
     (void)duration_of(draw, Shading::Forward);
     (void)duration_of(draw, Shading::Deferred);
-    for (std::size_t i = 0; i < kTimes; ++i) {
+    for (std::size_t i = 0; i < kTrials; ++i) {
         forward[i] = duration_of(draw, Shading::Forward);
         deferred[i] = duration_of(draw, Shading::Deferred);
     }

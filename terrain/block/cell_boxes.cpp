@@ -21,7 +21,7 @@ Ecef position(const BlockVertex& vertex) {
            glm::dvec3{vertex.low[0], vertex.low[1], vertex.low[2]};
 }
 
-struct Box {
+struct LevelBox {
     glm::vec3 low{std::numeric_limits<float>::max()};
     glm::vec3 high{std::numeric_limits<float>::lowest()};
 
@@ -29,13 +29,13 @@ struct Box {
         low = glm::min(low, point);
         high = glm::max(high, point);
     }
-    void add(const Box& box) {
+    void add(const LevelBox& box) {
         low = glm::min(low, box.low);
         high = glm::max(high, box.high);
     }
     [[nodiscard]] bool empty() const { return low.x > high.x; }
 };
-using LevelBoxes = std::array<Box, CellBoxes::kCells>;
+using LevelBoxes = std::array<LevelBox, CellBoxes::kCells>;
 
 /// Calls for every vertex that a vertex may come to, itself first, with the least level that must be asked
 /// for, up to a last one.
@@ -117,8 +117,8 @@ CellBoxes cell_boxes(const Block& block, const Block* parent) {
                          : std::min(block.last_level + CellBoxes::kLevelsBeyond, int{parent->last_level});
     const auto levels = static_cast<std::size_t>(last - block.first_level + 1);
     const std::vector<LevelBoxes> boxes = exact_boxes(block, parent, result, levels);
-    Box all;
-    for (const Box& box : boxes.back()) all.add(box);
+    LevelBox all;
+    for (const LevelBox& box : boxes.back()) all.add(box);
     if (all.empty()) return result;
     // One step free at either end, for the rounding.
     result.step_m = glm::max((all.high - all.low) / 253.0F, glm::vec3{1e-3F});
@@ -128,8 +128,8 @@ CellBoxes cell_boxes(const Block& block, const Block* parent) {
     result.level_radius_m.reserve(levels);
     for (const LevelBoxes& level : boxes) {
         result.levels.push_back(rounded(level, result));
-        Box whole;
-        for (const Box& box : level) whole.add(box);
+        LevelBox whole;
+        for (const LevelBox& box : level) whole.add(box);
         result.level_radius_m.push_back(glm::length(glm::max(-whole.low, whole.high) + result.step_m));
     }
     return result;

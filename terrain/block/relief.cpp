@@ -10,9 +10,6 @@ namespace eyepoint::terrain {
 namespace {
 
 constexpr double kRadians = 3.14159265358979323846 / 180.0;
-/// Metres per degree along the meridian and the parallel, on the sphere of the semi-major axis: good to 1%,
-/// which shading does not show.
-constexpr double kMetresPerDegree = kEquatorialRadiusM * kRadians;
 /// No parallel is taken for shorter than this share of the equator: slopes at a pole stay finite.
 constexpr double kLeastCosine = 1e-3;
 

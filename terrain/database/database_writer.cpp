@@ -26,12 +26,6 @@ namespace eyepoint::terrain {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-/// Encoded tiles held in memory before they are spilled to disk.
-constexpr std::size_t kMaxPendingBytes = std::size_t{256} << 20;
-constexpr const char* kPartialMark = ".partial-";
-
 /// A shard being gathered. Tiles arrive in any order; their bytes lie in the spill file up to `spilled`, then
 /// in `pending`. Offsets count over both.
 struct GatheredShard {
@@ -43,6 +37,12 @@ struct GatheredShard {
 struct ByKey {
     bool operator()(TileId a, TileId b) const { return key(a) < key(b); }
 };
+
+namespace {
+
+/// Encoded tiles held in memory before they are spilled to disk.
+constexpr std::size_t kMaxPendingBytes = std::size_t{256} << 20;
+constexpr const char* kPartialMark = ".partial-";
 
 /// Whether the folder may be replaced: not there, empty, or a terrain database.
 tl::expected<void, std::string> check_place(const fs::path& folder) {

@@ -14,7 +14,6 @@ namespace eyepoint::terrain {
 
 namespace {
 
-constexpr std::size_t kMaxVertices = std::size_t{kBlockPosts} * kBlockPosts;
 /// Depths below the tile whose posts a mesh can have.
 constexpr int kDepthsBelow = std::countr_zero(static_cast<std::uint32_t>(kPostUnits));
 constexpr std::uint64_t kCellCodes = (std::uint64_t{1} << 2 * kDepthsBelow) - 1;

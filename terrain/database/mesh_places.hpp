@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -12,6 +13,8 @@
 
 namespace eyepoint::terrain {
 
+/// Of a tile's mesh: as many as it has posts.
+inline constexpr std::size_t kMaxVertices = std::size_t{kBlockPosts} * kBlockPosts;
 /// Distance of the tile's own posts, in kPlaceUnits.
 inline constexpr std::int32_t kPostUnits = kPlaceUnits / kBlockCells;
 

@@ -16,7 +16,6 @@ namespace {
 
 using Fault = tl::expected<void, std::string>;
 
-constexpr std::size_t kMaxVertices = std::size_t{kBlockPosts} * kBlockPosts;
 constexpr std::array<std::uint16_t, 4> kCorners{0, kBlockCells, kBlockCells* kBlockPosts,
                                                 kBlockPosts* kBlockPosts - 1};
 

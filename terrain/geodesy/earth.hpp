@@ -2,6 +2,8 @@
 /// Thread use: every function is pure and may be called from any thread.
 #pragma once
 
+#include <numbers>
+
 #include <glm/mat3x3.hpp>
 
 #include "terrain/geodesy/position.hpp"
@@ -12,6 +14,8 @@ namespace eyepoint::terrain {
 inline constexpr double kEquatorialRadiusM = 6378137.0;
 inline constexpr double kFlattening = 1.0 / 298.257223563;
 inline constexpr double kPolarRadiusM = kEquatorialRadiusM * (1.0 - kFlattening);
+/// Along the equator; of latitude within 0.7%.
+inline constexpr double kMetresPerDegree = kEquatorialRadiusM * std::numbers::pi / 180.0;
 
 /// Geodetic to ECEF; error under 10 nm within 1000 km of the surface (GeographicLib::Geocentric).
 [[nodiscard]] Ecef to_ecef(const Geodetic& place);

@@ -16,34 +16,22 @@ namespace eyepoint::terrain {
 
 namespace {
 
-constexpr std::size_t kCells = CellBoxes::kCells;
-constexpr std::size_t kLevels = kLastLevel + 1;
-/// A gap between runs of cells is drawn if it has fewer indices: a draw more costs as much.
-constexpr std::uint32_t kGapIndices = 3 * 12;
 /// Of coordinates and distances in float, by distance.
-constexpr double kRounding = 1e-6;
+constexpr double kDistanceRounding = 1e-6;
 
 using Distances = std::array<double, kLevels>;
-using Floats = std::array<float, kCells>;
-using Bytes = std::array<std::uint8_t, kCells>;
+using Floats = std::array<float, CellBoxes::kCells>;
+using Bytes = std::array<std::uint8_t, CellBoxes::kCells>;
 
 /// Bit n is byte n, 0 or 1: a product brings the low bits of eight bytes, one after the other, into its top
 /// byte.
 std::uint64_t bits(const Bytes& bytes) {
     std::uint64_t result = 0;
-    for (std::size_t i = 0; i < kCells; i += 8) {
+    for (std::size_t i = 0; i < CellBoxes::kCells; i += 8) {
         std::uint64_t eight = 0;
         for (std::size_t j = 0; j < 8; ++j) eight |= std::uint64_t{bytes[i + j]} << (8 * j);
         result |= (eight * 0x0102040810204080) >> 56 << i;
     }
-    return result;
-}
-
-/// Distances at which level_at() is a level and a margin; scale 1.
-Distances unit_distances_m(double margin) {
-    Distances result{};
-    for (std::size_t level = 0; level < kLevels; ++level)
-        result[level] = std::exp2((static_cast<double>(level) + margin) / 2.0);
     return result;
 }
 
@@ -89,7 +77,7 @@ struct CellCut::LocalView {
             squares[i] = static_cast<float>(step_m * step_m);
         }
         distance_m = glm::length(from_centre);
-        rounding_m = kRounding * (distance_m + double{boxes.radius_m});
+        rounding_m = kDistanceRounding * (distance_m + double{boxes.radius_m});
     }
 
     [[nodiscard]] double nearest_m() const { return distance_m - double{boxes.radius_m}; }
@@ -100,7 +88,7 @@ struct CellCut::LocalView {
         result.fill(0.0F);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const float at = eye[axis], scale = squares[axis];
-            for (std::size_t i = 0; i < kCells; ++i) {
+            for (std::size_t i = 0; i < CellBoxes::kCells; ++i) {
                 const float below = static_cast<float>(level.low[axis][i]) - at;
                 const float above = at - static_cast<float>(level.high[axis][i]);
                 const float beyond = below > above ? below : above;
@@ -113,7 +101,7 @@ struct CellCut::LocalView {
         result.fill(0.0F);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const float at = eye[axis], scale = squares[axis];
-            for (std::size_t i = 0; i < kCells; ++i) {
+            for (std::size_t i = 0; i < CellBoxes::kCells; ++i) {
                 const float to_low = at - static_cast<float>(level.low[axis][i]);
                 const float to_high = static_cast<float>(level.high[axis][i]) - at;
                 const float off = to_low > to_high ? to_low : to_high;
@@ -130,7 +118,8 @@ struct CellCut::LocalView {
             const auto row = static_cast<std::size_t>(axis);
             const auto slope = static_cast<float>(normal[axis] * double{boxes.step_m[axis]});
             const CellBoxes::Side& inner = slope > 0.0F ? level.high[row] : level.low[row];
-            for (std::size_t i = 0; i < kCells; ++i) result[i] += slope * static_cast<float>(inner[i]);
+            for (std::size_t i = 0; i < CellBoxes::kCells; ++i)
+                result[i] += slope * static_cast<float>(inner[i]);
         }
     }
 };
@@ -180,7 +169,7 @@ std::uint64_t CellCut::allowing(const Frame& frame, const LocalView& local, int 
     local.near_squares(local.boxes.at(level - 1), squares);
     const float least_square = local.square(least_m);
     Bytes far;
-    for (std::size_t i = 0; i < kCells; ++i)
+    for (std::size_t i = 0; i < CellBoxes::kCells; ++i)
         far[i] = static_cast<std::uint8_t>(squares[i] >= least_square ? 1 : 0);
     return bits(far);
 }
@@ -203,7 +192,7 @@ std::uint64_t CellCut::find_outside(const Frame& frame, const LocalView& local, 
             if ((sides >> side & 1U) == 0) continue;
             Floats inward_m;
             local.inward(boxes, frame.view, side, inward_m);
-            for (std::size_t i = 0; i < kCells; ++i)
+            for (std::size_t i = 0; i < CellBoxes::kCells; ++i)
                 beyond[i] = static_cast<std::uint8_t>(inward_m[i] < least_m ? 1 : beyond[i]);
         }
         open &= bits(beyond);
@@ -212,7 +201,7 @@ std::uint64_t CellCut::find_outside(const Frame& frame, const LocalView& local, 
         local.far_squares(boxes, squares);
         const float most_square = local.square(std::max(frame.most(level) - local.rounding_m, 0.0));
         Bytes bounded;
-        for (std::size_t i = 0; i < kCells; ++i)
+        for (std::size_t i = 0; i < CellBoxes::kCells; ++i)
             bounded[i] = static_cast<std::uint8_t>(squares[i] <= most_square ? 1 : 0);
         const std::uint64_t now = open & bits(bounded);
         outside |= now;
@@ -229,7 +218,7 @@ void CellCut::keep(const BlockDraw& draw, std::uint8_t level, std::uint64_t cell
     const Block& block = *draw.node->block;
     const auto& first = block.levels[static_cast<std::size_t>(level - block.first_level)].cell_first;
     Bytes filled;
-    for (std::size_t i = 0; i < kCells; ++i)
+    for (std::size_t i = 0; i < CellBoxes::kCells; ++i)
         filled[i] = static_cast<std::uint8_t>(first[i] != first[i + 1] ? 1 : 0);
     for (std::uint64_t left = cells & in_view & bits(filled); left != 0;) {
         const int begin = std::countr_zero(left);

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 #include "terrain/geodesy/position.hpp"
@@ -16,6 +18,7 @@ namespace eyepoint::terrain {
 inline constexpr double kFinestErrorM = 1.0 / 1024.0;
 /// The coarsest level there is; its error (3,000 km) is that of any mesh of the Earth.
 inline constexpr std::uint8_t kLastLevel = 63;
+inline constexpr std::size_t kLevels = kLastLevel + 1;
 
 [[nodiscard]] inline double level_error_m(int level) { return kFinestErrorM * std::exp2(0.5 * level); }
 
@@ -53,6 +56,13 @@ inline constexpr double kToleranceShare = 0.97;
 }
 [[nodiscard]] inline double level_at(double distance_m, double scale) {
     return 2.0 * std::log2(std::max(distance_m * scale, 1e-9));
+}
+/// The distances at which level_at() is a level and a margin; scale 1.
+[[nodiscard]] inline std::array<double, kLevels> unit_distances_m(double margin_levels) {
+    std::array<double, kLevels> result{};
+    for (std::size_t level = 0; level < kLevels; ++level)
+        result[level] = std::exp2((static_cast<double>(level) + margin_levels) / 2.0);
+    return result;
 }
 
 /// From this latitude on, a border of tiles, those of this depth and deeper are so narrow that splitting

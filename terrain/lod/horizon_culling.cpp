@@ -18,10 +18,6 @@ namespace eyepoint::terrain {
 
 namespace {
 
-constexpr int kSide = CellBounds::kSide;
-constexpr int kNodes = CellBounds::kNodes;
-constexpr std::size_t kCells = CellBounds::kCells;
-
 /// Hidden must be what is drawn, not only what is meant: a corner of a triangle is drawn up to 1/512 pixel
 /// off. In pixels, with room for the stretch of the upright picture.
 constexpr double kMarginPx = 1.0 / 16.0;
@@ -32,8 +28,6 @@ constexpr float kSteepest = 8.0F;
 /// Where less than one in so many triangles is hidden, so many frames pass until the next attempt.
 constexpr std::uint64_t kWorthwhile = 50;
 constexpr int kIdleFrames = 15;
-/// A gap between runs of visible cells is drawn if it has fewer triangles: a draw more costs as much.
-constexpr std::uint32_t kGapIndices = 3 * 12;
 
 /// A block's local frame as the upright picture sees it.
 struct BlockView {
@@ -46,7 +40,7 @@ struct BlockView {
 
 /// What cells reach in the picture at most, by number.
 struct ProjectedTops {
-    using Each = std::array<float, kCells>;
+    using Each = std::array<float, CellBounds::kCells>;
     Each least_u, greatest_u, v, ahead_m;
     Each steepest;  ///< the most of |u| and |v|; above kSteepest where a corner is not ahead of the eye
 };
@@ -61,9 +55,9 @@ constexpr std::uint8_t kNoList = 255;
 /// The sides and tops of boxes, in steps of the block's CellBoxes. Boxes without bounds have none, `bounded`
 /// 0.
 struct FlatTops {
-    using Each = std::array<float, kCells>;
+    using Each = std::array<float, CellBounds::kCells>;
     Each west, east, south, north, top;
-    std::array<std::uint8_t, kCells> bounded;
+    std::array<std::uint8_t, CellBounds::kCells> bounded;
 };
 
 /// Corner by corner over tops from first to last, in plain loops over arrays: the compiler makes vectors of
@@ -123,7 +117,7 @@ FlatTops around(const FlatTops& tops) {
 /// The nodes of a block's low lines in the picture: nine along its rows, then nine along its columns.
 struct ProjectedNodes {
     using Lines = std::array<UprightPoint, CellBounds::kLineNodes>;
-    Lines rows, columns;  ///< line * kNodes + place on it
+    Lines rows, columns;  ///< line * CellBounds::kNodes + place on it
 };
 
 namespace {
@@ -156,10 +150,10 @@ ProjectedNodes project_nodes(const BlockView& view, const CellBounds& bounds, in
     project_lows(view, bounds, step.row_low, u, v, ahead_m);
     for (std::size_t i = 0; i < CellBounds::kLineNodes; ++i) nodes.rows[i] = {u[i], v[i], ahead_m[i]};
     project_lows(view, bounds, step.column_low, u, v, ahead_m);
-    for (std::size_t line = 0; line < kNodes; ++line) {
-        for (std::size_t at = 0; at < kNodes; ++at) {
-            const std::size_t i = at * kNodes + line;
-            nodes.columns[line * kNodes + at] = {u[i], v[i], ahead_m[i]};
+    for (std::size_t line = 0; line < CellBounds::kNodes; ++line) {
+        for (std::size_t at = 0; at < CellBounds::kNodes; ++at) {
+            const std::size_t i = at * CellBounds::kNodes + line;
+            nodes.columns[line * CellBounds::kNodes + at] = {u[i], v[i], ahead_m[i]};
         }
     }
     return nodes;
@@ -172,13 +166,13 @@ const NestedLevel& list_of(const Block& block, std::uint8_t level) {
 /// Bits of the cells in rows or columns of cells `from` to `to`, both counted, that there are.
 std::uint64_t rows_of_cells(int from, int to) {
     std::uint64_t cells = 0;
-    for (int row = std::max(from, 0); row <= std::min(to, kSide - 1); ++row)
+    for (int row = std::max(from, 0); row <= std::min(to, CellBounds::kSide - 1); ++row)
         cells |= std::uint64_t{0xff} << (8 * row);
     return cells;
 }
 std::uint64_t columns_of_cells(int from, int to) {
     std::uint64_t cells = 0;
-    for (int column = std::max(from, 0); column <= std::min(to, kSide - 1); ++column)
+    for (int column = std::max(from, 0); column <= std::min(to, CellBounds::kSide - 1); ++column)
         cells |= std::uint64_t{0x0101010101010101} << column;
     return cells;
 }
@@ -204,7 +198,7 @@ struct HorizonCulling::CellSights {
 /// The cells of a block that are to be drawn: by which list each, kNoList for those that are not or have no
 /// triangles.
 struct HorizonCulling::CellLists {
-    std::array<std::uint8_t, kCells> level;
+    std::array<std::uint8_t, CellBounds::kCells> level;
     std::uint64_t triangles = 0;
     std::uint8_t highest_floor = 0;
 
@@ -215,7 +209,7 @@ struct HorizonCulling::CellLists {
         for (const BlockDraw& draw : draws) {
             const auto& first = list_of(*draw.node->block, draw.level).cell_first;
             const std::uint32_t end = draw.indices.first + draw.indices.count;
-            for (std::size_t i = 0; i < kCells; ++i) {
+            for (std::size_t i = 0; i < CellBounds::kCells; ++i) {
                 if (first[i] >= draw.indices.first && first[i + 1] <= end && first[i] < first[i + 1])
                     level[i] = draw.level;
             }
@@ -280,7 +274,7 @@ struct HorizonCulling::Frame {
         const double rounding_m = 1e-6 * (middle_m + double{boxes.radius_m});
         int level = std::max({int{boxes.first_level}, int{highest_floor},
                               static_cast<int>(level_at(std::max(nearest_m, 0.0), level_scale))});
-        for (std::size_t open = kCells; open > 0 && level <= boxes.last_level(); ++level) {
+        for (std::size_t open = CellBounds::kCells; open > 0 && level <= boxes.last_level(); ++level) {
             const double most_m = std::exp2((level - kLevelMargin) / 2.0) / level_scale - rounding_m;
             open -= add_bounded(boxes.at(level), eye, squares, most_m, tops);
         }
@@ -292,7 +286,7 @@ struct HorizonCulling::Frame {
                                    const glm::vec3& squares, double most_m, FlatTops& tops) {
         const auto most_square = static_cast<float>(std::max(most_m, 0.0) * std::max(most_m, 0.0));
         std::size_t added = 0;
-        for (std::size_t i = 0; i < kCells; ++i) {
+        for (std::size_t i = 0; i < CellBounds::kCells; ++i) {
             const float west = level.low[0][i], east = level.high[0][i], south = level.low[1][i],
                         north = level.high[1][i], bottom = level.low[2][i], top = level.high[2][i];
             const auto farther = [](float at, float low, float high) {
@@ -325,7 +319,7 @@ struct HorizonCulling::Frame {
         const glm::dvec3 eye =
             glm::transpose(boxes.axes) * (upright.eye - boxes.centre) - glm::dvec3{boxes.origin};
         const auto& first = block.levels.front().cell_first;
-        for (std::size_t i = 0; i < kCells; ++i) {
+        for (std::size_t i = 0; i < CellBounds::kCells; ++i) {
             if (first[i] == first[i + 1]) continue;
             if (tops.bounded[i] == 0) return true;
             const glm::dvec3 low = glm::dvec3{tops.west[i], tops.south[i], 0.0} * glm::dvec3{boxes.step_m};
@@ -378,7 +372,7 @@ void HorizonCulling::cull_block(const Frame& frame, std::span<const BlockDraw> d
         if (whole == TerrainHorizon::Sight::Hidden) selection.triangles_hidden += lists.triangles;
         return;
     }
-    project_tops(view, flat, lean_m, kCells, tops);
+    project_tops(view, flat, lean_m, CellBounds::kCells, tops);
     const auto step = frame.step_of(node, lists.highest_floor);
     std::optional<ProjectedNodes> nodes;
     if (step) nodes = project_nodes(frame.view_of(*node.block->bounds), *node.block->bounds, *step);
@@ -397,12 +391,14 @@ HorizonCulling::CellSights HorizonCulling::look_at_cells(const CellLists& lists,
         const std::uint64_t beside = rows ? rows_of_cells(line - 1, line) : columns_of_cells(line - 1, line);
         const auto& lines = rows ? nodes->rows : nodes->columns;
         if ((open & beside) != 0)
-            horizon_.raise(std::span(lines).subspan(static_cast<std::size_t>(line * kNodes), kNodes));
+            horizon_.raise(std::span(lines).subspan(static_cast<std::size_t>(line * CellBounds::kNodes),
+                                                    CellBounds::kNodes));
     };
-    for (int n = 0; n < kSide; ++n) {
-        const int band = bands.rising ? n : kSide - 1 - n;
-        for (int at = 0; at < kSide; ++at) {
-            const auto i = static_cast<std::size_t>(bands.rows ? band * kSide + at : at * kSide + band);
+    for (int n = 0; n < CellBounds::kSide; ++n) {
+        const int band = bands.rising ? n : CellBounds::kSide - 1 - n;
+        for (int at = 0; at < CellBounds::kSide; ++at) {
+            const auto i = static_cast<std::size_t>(bands.rows ? band * CellBounds::kSide + at
+                                                               : at * CellBounds::kSide + band);
             const bool empty = lists.level[i] == kNoList;
             const auto seen = empty ? TerrainHorizon::Sight::Visible : sight(tops, i);
             open |= std::uint64_t{seen == TerrainHorizon::Sight::Visible} << i;
@@ -411,8 +407,8 @@ HorizonCulling::CellSights HorizonCulling::look_at_cells(const CellLists& lists,
         }
         raise(bands.rows, bands.rising ? band : band + 1);
     }
-    raise(bands.rows, bands.rising ? kSide : 0);
-    for (int line = 0; line < kNodes; ++line) raise(!bands.rows, line);
+    raise(bands.rows, bands.rising ? CellBounds::kSide : 0);
+    for (int line = 0; line < CellBounds::kNodes; ++line) raise(!bands.rows, line);
     return sights;
 }
 
@@ -426,11 +422,12 @@ void HorizonCulling::keep_cells(const BlockDraw& draw, const CellLists& lists, c
                                 Selection& selection) {
     const Block& block = *draw.node->block;
     std::uint64_t hidden = cells.hidden;
-    for (std::size_t begin = 0, end = 0; begin < kCells; begin = end) {
+    for (std::size_t begin = 0, end = 0; begin < CellBounds::kCells; begin = end) {
         end = begin + 1;
         if ((cells.visible >> begin & 1U) == 0) continue;
         const auto& first = list_of(block, lists.level[begin]).cell_first;
-        for (std::size_t next = end; next < kCells && first[next] - first[end] < kGapIndices; ++next) {
+        for (std::size_t next = end; next < CellBounds::kCells && first[next] - first[end] < kGapIndices;
+             ++next) {
             if ((cells.visible >> next & 1U) == 0) continue;
             if (lists.level[next] != lists.level[begin]) break;
             end = next + 1;
@@ -441,7 +438,7 @@ void HorizonCulling::keep_cells(const BlockDraw& draw, const CellLists& lists, c
         kept_.back().indices = {first[begin], first[end] - first[begin]};
         selection.triangles += kept_.back().indices.count / 3;
     }
-    for (std::size_t i = 0; i < kCells; ++i) {
+    for (std::size_t i = 0; i < CellBounds::kCells; ++i) {
         if ((hidden >> i & 1U) == 0) continue;
         const auto& first = list_of(block, lists.level[i]).cell_first;
         selection.triangles_hidden += (first[i + 1] - first[i]) / 3;

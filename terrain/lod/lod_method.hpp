@@ -39,6 +39,9 @@ struct IndexRange {
     std::uint32_t first = 0;
     std::uint32_t count = 0;
 };
+/// A gap between runs of cells that are drawn is drawn too if it has fewer indices: a draw more costs as
+/// much.
+inline constexpr std::uint32_t kGapIndices = 3 * 12;
 
 /// The index list that a method has made for one block and makes anew when it wants other triangles.
 /// Unchanged lists are not sent to the graphics card again.

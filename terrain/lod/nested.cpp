@@ -24,16 +24,13 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::uint64_t kUseFrames = 16;
 static_assert(2 * kUseFrames < kKeepFrames);
 constexpr std::uint8_t kAllSides = 0xf;
-constexpr std::size_t kLevels = kLastLevel + 1;
 
 /// Rows: levels 0..63, then "always" and "never" (NestedLod::kAlways, kNever).
-using Distances = std::array<double, kLevels + 2>;
+using RowDistances = std::array<double, kLevels + 2>;
 
-/// Distance at which level_at() is so many levels and a margin; scale 1.
-Distances unit_distances_m(double margin) {
-    Distances result{};
-    for (std::size_t level = 0; level < kLevels; ++level)
-        result[level] = std::exp2((static_cast<double>(level) + margin) / 2.0);
+RowDistances row_unit_distances_m(double margin_levels) {
+    RowDistances result{};
+    std::ranges::copy(unit_distances_m(margin_levels), result.begin());
     result[kLevels] = -kInfinity;
     result[kLevels + 1] = kInfinity;
     return result;
@@ -42,9 +39,9 @@ Distances unit_distances_m(double margin) {
 /// The margin is what the shader's rounding needs: for distances from which on a level is asked for,
 /// positive.
 template <int kSign>
-Distances distances_m(double scale) {
-    static const Distances unit_m = unit_distances_m(kSign * kLevelMargin);
-    Distances result = unit_m;
+RowDistances distances_m(double scale) {
+    static const RowDistances unit_m = row_unit_distances_m(kSign * kLevelMargin);
+    RowDistances result = unit_m;
     for (double& distance_m : result) distance_m /= scale;
     return result;
 }
@@ -75,9 +72,9 @@ struct NestedLod::Frame {
     HorizonOccluder horizon;
     double nearest_hidden_m;
     double scale;                 ///< of levels, by tau
-    Distances nearer_m;           ///< by tau + s: a list is right from there on
-    Distances farther_m;          ///< by tau: the next one would be right, too
-    Distances at_most_m;          ///< by tau + s: up to there no higher level is asked for
+    RowDistances nearer_m;        ///< by tau + s: a list is right from there on
+    RowDistances farther_m;       ///< by tau: the next one would be right, too
+    RowDistances at_most_m;       ///< by tau + s: up to there no higher level is asked for
     double metres_a_texel;        ///< distance at which a texel of one metre is kMostPixelsATexel
     double metres_a_texel_slack;  ///< the same, of a choice once made
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "terrain/geodesy/earth.hpp"
 #include "terrain/lod/error_level.hpp"
 #include "terrain/tiling/tile_id.hpp"
 
@@ -21,7 +22,6 @@ inline constexpr double kMostTolerancesAPost = 32.0;
 /// a greater tolerance saves triangles in flat country, too. 0 at a pole, where thousands of narrow tiles
 /// meet.
 [[nodiscard]] inline std::uint8_t relief_level(TileId tile) {
-    constexpr double kMetresPerDegree = 111320.0;
     if (is_polar(tile)) return 0;
     return level_of_error(post_spacing_deg(tile.depth) * kMetresPerDegree / kMostTolerancesAPost);
 }

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "terrain/geodesy/earth.hpp"
+#include "terrain/lod/painted_detail.hpp"
 #include "terrain/lod/planet_horizon.hpp"
 #include "terrain/tiling/tile_edges.hpp"
 
@@ -14,14 +15,11 @@ namespace eyepoint::terrain {
 
 namespace {
 
-/// A picture's texel may cover so many pixels before a finer picture is wanted.
-constexpr double kMostPixelsATexel = 2.0;
-
 /// Height of the Earth's arc over the diagonal of a cell of a level, at the equator, where it is greatest,
 /// metres.
 double sagitta_m(std::uint32_t depth, int level) {
-    constexpr double kRadians = 3.14159265358979323846 / 180.0;
-    const double chord_m = post_spacing_deg(depth) * (1 << level) * kRadians * kEquatorialRadiusM;
+    constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180.0;
+    const double chord_m = post_spacing_deg(depth) * (1 << level) * kRadiansPerDegree * kEquatorialRadiusM;
     return 2.0 * chord_m * chord_m / (8.0 * kEquatorialRadiusM);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "terrain/database/virtual_tile.hpp"
+#include "terrain/geodesy/earth.hpp"
 
 namespace eyepoint::terrain {
 
@@ -34,7 +35,6 @@ void TileTree::describe(TileNode& node, TileId tile, TileNode* parent) const {
         node.stored = true;
         node.info = *info;
         if (has_finer_picture(*database_, tile)) {
-            constexpr double kMetresPerDegree = 111320.0;
             node.texel_to_refine_m = tile_side_deg(tile.depth) / kImageTexels * kMetresPerDegree;
         }
     } else if (parent != nullptr) {  // roots are always in the database

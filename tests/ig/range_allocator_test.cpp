@@ -37,8 +37,8 @@ TEST(RangeAllocator, NothingTakesNoRoom) {
 /// However ranges come and go: none overlaps another, none leaves the row, and when all are back the row is
 /// one.
 RC_GTEST_PROP(RangeAllocator, NeverGivesAnElementTwice, (std::vector<std::uint8_t> steps)) {
-    constexpr std::uint32_t kSize = 200;
-    RangeAllocator ranges(kSize);
+    constexpr std::uint32_t kRangeSize = 200;
+    RangeAllocator ranges(kRangeSize);
     std::map<std::uint32_t, std::uint32_t> taken;
     for (const std::uint8_t step : steps) {
         if (step % 3 == 0 && !taken.empty()) {
@@ -51,14 +51,14 @@ RC_GTEST_PROP(RangeAllocator, NeverGivesAnElementTwice, (std::vector<std::uint8_
             const bool before_next = after == taken.end() || after->first >= end;
             const bool behind_last =
                 after == taken.begin() || std::prev(after)->first + std::prev(after)->second <= *first;
-            RC_ASSERT(end <= kSize);
+            RC_ASSERT(end <= kRangeSize);
             RC_ASSERT(before_next);
             RC_ASSERT(behind_last);
             taken.emplace(*first, 1U + step % 40U);
         }
     }
     for (const auto& [first, count] : taken) ranges.give_back(first, count);
-    RC_ASSERT(ranges.largest_free() == kSize);
+    RC_ASSERT(ranges.largest_free() == kRangeSize);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ TEST(StopSignals, NothingIsRequestedAtFirst) {
     EXPECT_FALSE(StopSignals::requested());
 }
 
-class StopSignalsOf : public testing::TestWithParam<int> {};
+class StopSignalsOf : public ::testing::TestWithParam<int> {};
 
 TEST_P(StopSignalsOf, OneSignalAsksForTheEnd) {
     const StopSignals signals;
@@ -32,10 +32,10 @@ TEST_P(StopSignalsOf, ASecondSignalEndsTheProcessAtOnce) {
             std::raise(GetParam());
             std::exit(EXIT_SUCCESS);
         },
-        testing::ExitedWithCode(128 + GetParam()), "");
+        ::testing::ExitedWithCode(128 + GetParam()), "");
 }
 
-INSTANTIATE_TEST_SUITE_P(Signals, StopSignalsOf, testing::Values(SIGINT, SIGTERM));
+INSTANTIATE_TEST_SUITE_P(Signals, StopSignalsOf, ::testing::Values(SIGINT, SIGTERM));
 
 TEST(StopSignals, AWriteToAClosedPipeFailsInsteadOfKilling) {
     const StopSignals signals;

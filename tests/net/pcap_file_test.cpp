@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/net/command_output.hpp"
 #include "tests/net/flights.hpp"
 #include "tests/net/scratch.hpp"
 #include "tests/net/wire_bytes.hpp"
@@ -29,15 +30,6 @@ void write(const std::filesystem::path& file, const std::vector<CapturedDatagram
         if (const auto written = writer->write(one); !written) throw std::runtime_error(written.error());
     }
     if (const auto finished = writer->finish(); !finished) throw std::runtime_error(finished.error());
-}
-
-std::string output_of(const std::string& command) {
-    std::string text;
-    std::FILE* pipe = ::popen(command.c_str(), "r");
-    std::array<char, 512> chunk{};
-    while (pipe != nullptr && std::fgets(chunk.data(), chunk.size(), pipe) != nullptr) text += chunk.data();
-    if (pipe != nullptr) ::pclose(pipe);
-    return text;
 }
 
 TEST(PcapFile, WhatIsWrittenIsReadBack) {
@@ -112,27 +104,29 @@ TEST(PcapFile, TheSampleFlightIsRead) {
 }
 
 TEST(PcapFile, PcapngIsRead) {
-    if (output_of("command -v editcap").empty())
+    if (testing::output_of("command -v editcap").empty())
         GTEST_SKIP() << "editcap is not installed: no pcapng to make";
     const Scratch scratch;
     const std::string made = (scratch / "flight.pcapng").string();
-    output_of("editcap -F pcapng '" + testing::sample_flight().string() + "' '" + made + "' 2>&1");
+    static_cast<void>(testing::output_of("editcap -F pcapng '" + testing::sample_flight().string() + "' '" +
+                                         made + "' 2>&1"));
     const auto recording = read_pcap(made);
     ASSERT_TRUE(recording.has_value()) << recording.error();
     EXPECT_EQ(recording->datagrams.size(), 1800U);
 }
 
 TEST(PcapFile, TsharkFindsTheChecksumsRight) {
-    if (output_of("command -v tshark").empty()) GTEST_SKIP() << "tshark is not installed: nobody to ask";
+    if (testing::output_of("command -v tshark").empty())
+        GTEST_SKIP() << "tshark is not installed: nobody to ask";
     const Scratch scratch;
     Bytes odd(409, std::byte{0xee});
     write(scratch / "flight.pcap",
           {datagram(1'700'000'000'000'000'000, Bytes(408, std::byte{7})),
            datagram(1'700'000'000'100'000'000, odd), datagram(1'700'000'000'200'000'000, {})});
     const std::string told =
-        output_of("tshark -r '" + (scratch / "flight.pcap").string() +
-                  "' -o ip.check_checksum:TRUE -o udp.check_checksum:TRUE -T fields "
-                  "-e ip.checksum.status -e udp.checksum.status -e udp.length 2>/dev/null");
+        testing::output_of("tshark -r '" + (scratch / "flight.pcap").string() +
+                           "' -o ip.check_checksum:TRUE -o udp.check_checksum:TRUE -T fields "
+                           "-e ip.checksum.status -e udp.checksum.status -e udp.length 2>/dev/null");
     EXPECT_EQ(told, "1\t1\t416\n1\t1\t417\n1\t1\t8\n");  // 1: good
 }
 

@@ -6,23 +6,16 @@
 
 #include "net/host_session.hpp"
 #include "net/pcap_file.hpp"
+#include "tests/net/command_output.hpp"
 #include "tests/net/scratch.hpp"
 #include "tests/net/wire_bytes.hpp"
 
 namespace eyepoint::net {
 namespace {
 
-std::string output_of(const std::string& command) {
-    std::string text;
-    std::FILE* pipe = ::popen(command.c_str(), "r");
-    std::array<char, 512> chunk{};
-    while (pipe != nullptr && std::fgets(chunk.data(), chunk.size(), pipe) != nullptr) text += chunk.data();
-    if (pipe != nullptr) ::pclose(pipe);
-    return text;
-}
-
 TEST(StartOfFrame, TsharkReadsWhatWasMeant) {
-    if (output_of("command -v tshark").empty()) GTEST_SKIP() << "tshark is not installed: nobody to ask";
+    if (testing::output_of("command -v tshark").empty())
+        GTEST_SKIP() << "tshark is not installed: nobody to ask";
     const testing::Scratch scratch;
     auto writer = PcapWriter::create(scratch / "answer.pcap");
     ASSERT_TRUE(writer.has_value());
@@ -35,7 +28,7 @@ TEST(StartOfFrame, TsharkReadsWhatWasMeant) {
         ASSERT_TRUE(writer->write(answer).has_value());
     }
     ASSERT_TRUE(writer->finish().has_value());
-    const std::string told = output_of(
+    const std::string told = testing::output_of(
         "tshark -r '" + (scratch / "answer.pcap").string() +
         "' -d udp.port==8005,cigi -T fields -e cigi.sof.ig_frame_number -e cigi.sof.last_host_frame_number "
         "-e cigi.sof.ig_mode -e cigi.sof.db_number -e cigi.sof.ig_status -e cigi.sof.timestamp "

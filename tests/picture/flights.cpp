@@ -5,18 +5,11 @@
 
 #include "net/pcap_file.hpp"
 #include "terrain/geodesy/geoid.hpp"
+#include "tests/picture/value_or_throw.hpp"
 
 namespace eyepoint::testing {
 
-namespace {
-
-template <typename T>
-T value_or_throw(tl::expected<T, std::string> made) {
-    if (!made) throw std::runtime_error(made.error());
-    return std::move(*made);
-}
-
-}  // namespace
+namespace {}  // namespace
 
 std::filesystem::path sample_flight() { return EYEPOINT_SOURCE_DIR "/tools/flights/goms-c172-60s-30hz.pcap"; }
 

@@ -9,16 +9,11 @@
 #include <epoxy/gl.h>
 
 #include "ig/eyepoint.hpp"
+#include "tests/picture/value_or_throw.hpp"
 
 namespace eyepoint::testing {
 
 namespace {
-
-template <typename T>
-T value_or_throw(tl::expected<T, std::string> made) {
-    if (!made) throw std::runtime_error(made.error());
-    return std::move(*made);
-}
 
 /// Of the frame buffer bound for reading. Reverse-Z with the far plane at infinity: depth = near / distance.
 std::vector<double> read_distances(ig::PictureSize size, double near_m) {

@@ -1,6 +1,7 @@
 /// What the bench's commands have in common on their command lines.
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -14,6 +15,9 @@ namespace eyepoint::tools {
 
 /// Ends the program with exit code 1 and one line on the standard error.
 [[noreturn]] void fail(const std::string& sentence);
+
+/// Writes text beside its place and renames it when whole; ends the program where it cannot.
+void write_or_fail(const std::filesystem::path& file, const std::string& text);
 
 /// --size WIDTHxHEIGHT. `size` outlives the parsing.
 void add_size_option(CLI::App& command, ig::PictureSize& size);

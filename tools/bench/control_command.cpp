@@ -64,12 +64,6 @@ double floor_ms(ControlStage& stage, std::span<const ig::FlightEye> eyes, const 
     return score(frames, request.bounds, 1.0, request.eyes.rate_hz).median_ms;
 }
 
-void write(const std::filesystem::path& file, const nlohmann::json& json) {
-    std::ofstream stream(file);
-    stream << json.dump(1) << '\n';
-    if (!stream.flush()) fail(file.string() + ": cannot be written; check the folder and free space");
-}
-
 nlohmann::json header(const ControlRequest& request, const ControlStage& stage) {
     return {{"path", request.eyes.file.filename().string()},
             {"renderer", stage.renderer()},
@@ -124,7 +118,7 @@ void run_flight(const ControlRequest& request) {
         fmt::print("{}", describe(run));
         json["targets"].push_back(to_json(run));
     }
-    if (request.json) write(*request.json, json);
+    if (request.json) write_or_fail(*request.json, json.dump(1) + "\n");
 }
 
 /// The first eye, standing, in pictures of one size and of twice as many pixels beside each other: narrow,
@@ -160,7 +154,7 @@ void run_step(const ControlRequest& request) {
         json["steps"].push_back(to_json(step));
     }
     json["frames"] = to_json(std::span(frames));
-    if (request.json) write(*request.json, json);
+    if (request.json) write_or_fail(*request.json, json.dump(1) + "\n");
 }
 
 void add_common(CLI::App& command, ControlRequest& request) {

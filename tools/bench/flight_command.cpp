@@ -56,20 +56,16 @@ FlightIdentity identity_of(const FlightRequest& request) {
             .streaming = request.streaming};
 }
 
-void write(const std::filesystem::path& file, const std::string& text) {
-    if (auto written = write_whole(file, text); !written) fail(written.error());
-}
-
 void keep(const FlightRequest& request, const BenchResult& bench) {
     FlightResult result = flight_result(bench, identity_of(request));
     if (request.goals)
         for (const GoalLine& line : frame_goals(result)) fmt::print("{}\n", describe(line));
     if (request.counts_only) result = counts_of(std::move(result));
-    if (!request.json.empty()) write(request.json, to_json_text(result));
+    if (!request.json.empty()) write_or_fail(request.json, to_json_text(result));
     if (request.html.empty()) return;
     const auto page = flight_page(result);
     if (!page) fail(page.error());
-    write(request.html, *page);
+    write_or_fail(request.html, *page);
 }
 
 void run(const FlightRequest& request) {

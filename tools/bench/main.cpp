@@ -7,12 +7,17 @@
 #include <fmt/format.h>
 
 #include "tools/bench/command_options.hpp"
+#include "tools/report/page.hpp"
 
 namespace eyepoint::tools {
 
 void fail(const std::string& sentence) {
     fmt::print(stderr, "eyepoint-bench: {}\n", sentence);
     std::exit(EXIT_FAILURE);
+}
+
+void write_or_fail(const std::filesystem::path& file, const std::string& text) {
+    if (auto written = write_whole(file, text); !written) fail(written.error());
 }
 
 void add_size_option(CLI::App& command, ig::PictureSize& size) {

@@ -71,12 +71,6 @@ SeePosts error_painter(const std::filesystem::path& folder, const std::vector<ig
     };
 }
 
-void write(const std::filesystem::path& file, const nlohmann::json& json) {
-    std::ofstream stream(file);
-    stream << json.dump(2) << '\n';
-    if (!stream.flush()) fail(file.string() + ": cannot be written; check the folder and free space");
-}
-
 nlohmann::json header(const MeasureRequest& request) {
     return {{"path", request.eyes.file.filename().string()},
             {"lod", request.flight.lod_method},
@@ -103,7 +97,7 @@ void run_match(const MeasureRequest& request, LodFlight& flight, FullSurface& su
     json["tau_px"] = match->tau_px;
     json["match_p999_px"] = *request.match_p999_px;
     json["flight"] = to_json(match->figures);
-    write(*request.json, json);
+    write_or_fail(*request.json, json.dump(2) + "\n");
 }
 
 void run_measure(const MeasureRequest& request, LodFlight& flight, FullSurface& surface,
@@ -118,7 +112,7 @@ void run_measure(const MeasureRequest& request, LodFlight& flight, FullSurface& 
     nlohmann::json json = header(request);
     json["flight"] = to_json(figures);
     for (const FrameMeasure& frame : *frames) json["frames"].push_back(to_json(frame));
-    write(*request.json, json);
+    write_or_fail(*request.json, json.dump(2) + "\n");
 }
 
 void run(MeasureRequest request) {

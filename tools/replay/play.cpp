@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "net/nanoseconds.hpp"
 #include "net/pcap_file.hpp"
 #include "net/udp_socket.hpp"
 #include "tools/replay/flight_ports.hpp"
@@ -14,12 +15,10 @@
 namespace eyepoint::tools {
 namespace {
 
-constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
-
 std::int64_t monotonic_ns() {
     timespec now{};
     clock_gettime(CLOCK_MONOTONIC, &now);
-    return now.tv_sec * kNanosecondsPerSecond + now.tv_nsec;
+    return now.tv_sec * net::kNanosecondsPerSecond + now.tv_nsec;
 }
 
 // The chosen datagrams and when each is due after the start, at rate 1.
@@ -58,7 +57,7 @@ tl::expected<Program, std::string> load(const PlayRequest& request) {
 }
 
 timespec at(std::int64_t time_ns) {
-    return {time_ns / kNanosecondsPerSecond, time_ns % kNanosecondsPerSecond};
+    return {time_ns / net::kNanosecondsPerSecond, time_ns % net::kNanosecondsPerSecond};
 }
 
 void send(const net::UdpSocket& socket, const net::Endpoint& to, const net::CapturedDatagram& datagram,

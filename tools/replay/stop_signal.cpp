@@ -7,10 +7,11 @@
 
 #include <unistd.h>
 
+#include "net/nanoseconds.hpp"
+
 namespace eyepoint::tools {
 namespace {
 
-constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
 // How long a signal may wait in a long sleep.
 constexpr std::int64_t kSlice_ns = 100'000'000;
 
@@ -22,7 +23,9 @@ sigset_t stop_signals() {
     return signals;
 }
 
-std::int64_t nanoseconds(const timespec& time) { return time.tv_sec * kNanosecondsPerSecond + time.tv_nsec; }
+std::int64_t nanoseconds(const timespec& time) {
+    return time.tv_sec * net::kNanosecondsPerSecond + time.tv_nsec;
+}
 
 }  // namespace
 
@@ -51,7 +54,8 @@ bool StopSignal::came_before(const timespec& deadline) const {
         const std::int64_t wake_ns = nanoseconds(now) + kSlice_ns;
         const bool last = wake_ns >= nanoseconds(deadline);
         const timespec wake =
-            last ? deadline : timespec{wake_ns / kNanosecondsPerSecond, wake_ns % kNanosecondsPerSecond};
+            last ? deadline
+                 : timespec{wake_ns / net::kNanosecondsPerSecond, wake_ns % net::kNanosecondsPerSecond};
         while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &wake, nullptr) != 0) {
         }
         if (last) return came();

@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::uint64_t kProgressSteps = 1000;
 
-struct Options {
+struct BuildOptions {
     std::vector<std::string> dem;
     std::vector<std::string> imagery;
     std::string output;
@@ -47,7 +47,7 @@ struct Inputs {
 template <typename Value>
 using Result = tl::expected<Value, std::string>;
 
-Result<ElevationDefaults> elevation_defaults(const Options& options) {
+Result<ElevationDefaults> elevation_defaults(const BuildOptions& options) {
     ElevationDefaults defaults;
     defaults.encoding = *height_encoding_named(options.encoding);
     defaults.datum = *vertical_datum_named(options.vertical);
@@ -65,7 +65,7 @@ Result<ElevationDefaults> elevation_defaults(const Options& options) {
 }
 
 /// Reads every file; the bar shows files, each in kProgressSteps.
-Result<Inputs> read_inputs(const Options& options, const terrain::Geoid& geoid) {
+Result<Inputs> read_inputs(const BuildOptions& options, const terrain::Geoid& geoid) {
     const auto defaults = elevation_defaults(options);
     if (!defaults) return tl::unexpected(defaults.error());
     const auto elevation = elevation_inputs(options.dem, *defaults);
@@ -131,13 +131,13 @@ Result<void> check_overlap(const Inputs& inputs) {
     return {};
 }
 
-std::string default_name(const Options& options) {
+std::string default_name(const BuildOptions& options) {
     const std::string first = std::filesystem::path{options.dem.front()}.stem().string();
     const std::size_t more = options.dem.size() - 1;
     return more == 0 ? first : fmt::format("{} and {} more", first, more);
 }
 
-terrain::Manifest manifest_of(const Options& options, const BuildReport& report) {
+terrain::Manifest manifest_of(const BuildOptions& options, const BuildReport& report) {
     terrain::Manifest manifest;
     manifest.name = options.name.empty() ? default_name(options) : options.name;
     manifest.created_by = "eyepoint-terrain " EYEPOINT_VERSION;
@@ -157,7 +157,7 @@ terrain::Manifest manifest_of(const Options& options, const BuildReport& report)
     return manifest;
 }
 
-Result<BuildReport> build(const Options& options) {
+Result<BuildReport> build(const BuildOptions& options) {
     const auto start = std::chrono::steady_clock::now();
     const auto geoid = terrain::Geoid::load(terrain::Geoid::default_grid());
     if (!geoid) return tl::unexpected(geoid.error());
@@ -203,7 +203,7 @@ Result<BuildReport> build(const Options& options) {
     return report;
 }
 
-void run(const Options& options) {
+void run(const BuildOptions& options) {
     watch_for_interruption();
     const auto report = build(options);
     if (!report) {
@@ -216,7 +216,7 @@ void run(const Options& options) {
 }  // namespace
 
 void add_build_command(CLI::App& application) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<BuildOptions>();
     auto* command = application.add_subcommand(
         "build", "Makes a terrain database from elevation and imagery files (docs/terrain-data.md).");
     command->footer(

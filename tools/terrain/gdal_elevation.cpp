@@ -22,10 +22,6 @@ constexpr float kHighestM = 9500.0F;
 constexpr double kFootM = 0.3048;
 constexpr double kUsSurveyFootM = 1200.0 / 3937.0;
 
-std::string refusal(const std::string& file, std::string_view fault) {
-    return fmt::format("{}: {}", file, fault);
-}
-
 bool is_colour(GDALRasterBand& band) {
     const GDALColorInterp meaning = band.GetColorInterpretation();
     return meaning == GCI_RedBand || meaning == GCI_PaletteIndex || band.GetRasterDataType() == GDT_Byte;
@@ -36,30 +32,30 @@ tl::expected<void, std::string> check_bands(GDALDataset& dataset, const Elevatio
     GDALRasterBand& first = *dataset.GetRasterBand(1);
     if (input.encoding == HeightEncoding::TerrainRgb) {
         if (bands >= 3 && first.GetRasterDataType() == GDT_Byte) return {};
-        return tl::unexpected(refusal(input.file,
-                                      "is not terrain-RGB, which has three 8-bit bands; leave out "
-                                      "--encoding terrain-rgb for this file"));
+        return tl::unexpected(gdal_refusal(input.file,
+                                           "is not terrain-RGB, which has three 8-bit bands; leave out "
+                                           "--encoding terrain-rgb for this file"));
     }
     if (input.band && (*input.band < 1 || *input.band > bands)) {
         return tl::unexpected(
-            refusal(input.file, fmt::format("has no band {}, only {}", *input.band, bands)));
+            gdal_refusal(input.file, fmt::format("has no band {}, only {}", *input.band, bands)));
     }
     GDALRasterBand& chosen = *dataset.GetRasterBand(input.band.value_or(1));
     if (GDALDataTypeIsComplex(chosen.GetRasterDataType()) != FALSE) {
-        return tl::unexpected(refusal(input.file, "holds complex numbers, not heights"));
+        return tl::unexpected(gdal_refusal(input.file, "holds complex numbers, not heights"));
     }
     if (input.band) return {};
     if (is_colour(first)) {
-        return tl::unexpected(refusal(
+        return tl::unexpected(gdal_refusal(
             input.file, bands >= 3
                             ? "is a colour picture, not heights; read it with @encoding=terrain-rgb if its "
                               "colours encode heights, or name it on --imagery"
                             : "is an 8-bit picture, not heights; if its numbers are metres, say @band=1"));
     }
     if (bands > 1) {
-        return tl::unexpected(
-            refusal(input.file,
-                    fmt::format("has {} bands, and which one holds heights is unknown; say @band=N", bands)));
+        return tl::unexpected(gdal_refusal(
+            input.file,
+            fmt::format("has {} bands, and which one holds heights is unknown; say @band=N", bands)));
     }
     return {};
 }
@@ -98,7 +94,7 @@ tl::expected<std::vector<float>, std::string> read_values(GDALDataset& dataset, 
                               channels[static_cast<std::size_t>(channel)]);
         }
         if (!whole) {
-            return tl::unexpected(refusal(
+            return tl::unexpected(gdal_refusal(
                 input.file,
                 fmt::format("cannot be read whole, it fails near line {} ({})", row, messages.last())));
         }
@@ -107,7 +103,7 @@ tl::expected<std::vector<float>, std::string> read_values(GDALDataset& dataset, 
             strip[i] = static_cast<float>(-10000.0 + code * 0.1);
         }
         if (progress && !progress(static_cast<double>(row + count) / rows)) {
-            return tl::unexpected(refusal(input.file, "reading was stopped"));
+            return tl::unexpected(gdal_refusal(input.file, "reading was stopped"));
         }
     }
     return values;
@@ -155,9 +151,10 @@ tl::expected<void, std::string> check_heights(const HeightGrid& grid) {
         lowest = std::min(lowest, height);
         highest = std::max(highest, height);
     }
-    if (lowest > highest) return tl::unexpected(refusal(facts.file, "holds no height at all, only voids"));
+    if (lowest > highest)
+        return tl::unexpected(gdal_refusal(facts.file, "holds no height at all, only voids"));
     if (lowest < kLowestM || highest > kHighestM) {
-        return tl::unexpected(refusal(
+        return tl::unexpected(gdal_refusal(
             facts.file,
             fmt::format("holds values from {} to {}, which are no heights in metres on Earth; name its "
                         "fill value with --nodata, or its encoding with --encoding",
@@ -188,11 +185,11 @@ tl::expected<HeightGrid, std::string> read_elevation(const ElevationInput& input
     const auto dataset = open_elevation(input);
     if (!dataset) return tl::unexpected(dataset.error());
     auto mapping = georeference_of(**dataset, input);
-    if (!mapping) return tl::unexpected(refusal(input.file, mapping.error()));
+    if (!mapping) return tl::unexpected(gdal_refusal(input.file, mapping.error()));
     const int columns = (*dataset)->GetRasterXSize();
     const int rows = (*dataset)->GetRasterYSize();
     if (static_cast<std::uint64_t>(columns) * static_cast<std::uint64_t>(rows) > kMaxPosts) {
-        return tl::unexpected(refusal(
+        return tl::unexpected(gdal_refusal(
             input.file,
             fmt::format("{} x {} posts are more than the {} million that are read at once; cut it with "
                         "gdal_translate -projwin",

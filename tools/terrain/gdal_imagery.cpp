@@ -12,16 +12,13 @@ namespace eyepoint::tools {
 
 namespace {
 
-std::string refusal(const std::string& file, std::string_view fault) {
-    return fmt::format("{}: {}", file, fault);
-}
-
 tl::expected<void, std::string> check_bands(GDALDataset& dataset, const std::string& file) {
     for (int band = 1; band <= std::min(dataset.GetRasterCount(), 3); ++band) {
         if (dataset.GetRasterBand(band)->GetRasterDataType() == GDT_Byte) continue;
-        return tl::unexpected(refusal(file,
-                                      "is no 8-bit picture; make one with gdal_translate -ot Byte -scale, or "
-                                      "name it on --dem if it holds heights"));
+        return tl::unexpected(
+            gdal_refusal(file,
+                         "is no 8-bit picture; make one with gdal_translate -ot Byte -scale, or "
+                         "name it on --dem if it holds heights"));
     }
     return {};
 }
@@ -93,12 +90,12 @@ tl::expected<std::vector<std::uint8_t>, std::string> read_colours(GDALDataset& d
         }
         whole = whole && read_alpha(dataset, bands, row, count, strip);
         if (!whole) {
-            return tl::unexpected(refusal(
+            return tl::unexpected(gdal_refusal(
                 file, fmt::format("cannot be read whole, it fails near line {} ({})", row, messages.last())));
         }
         if (dataset.GetRasterCount() < 3) apply_palette(*dataset.GetRasterBand(1), strip);
         if (progress && !progress(static_cast<double>(row + count) / rows)) {
-            return tl::unexpected(refusal(file, "reading was stopped"));
+            return tl::unexpected(gdal_refusal(file, "reading was stopped"));
         }
     }
     return rgba;
@@ -134,9 +131,9 @@ tl::expected<ColourGrid, std::string> read_imagery(const ImageryInput& input, co
                     .voids = 0,
                     .notes = {}};
     auto mapping = place(**dataset, input, facts);
-    if (!mapping) return tl::unexpected(refusal(input.file, mapping.error()));
+    if (!mapping) return tl::unexpected(gdal_refusal(input.file, mapping.error()));
     if (static_cast<std::uint64_t>(facts.columns) * static_cast<std::uint64_t>(facts.rows) > kMaxPixels) {
-        return tl::unexpected(refusal(
+        return tl::unexpected(gdal_refusal(
             input.file,
             fmt::format("{} x {} pixels are more than the {} million that are read at once; cut it with "
                         "gdal_translate -projwin",

@@ -12,6 +12,13 @@
 
 namespace eyepoint::tools {
 
+struct DestroyTransform {
+    void operator()(OGRCoordinateTransformation* transform) const {
+        OGRCoordinateTransformation::DestroyCT(transform);
+    }
+};
+using Transform = std::unique_ptr<OGRCoordinateTransformation, DestroyTransform>;
+
 namespace {
 
 /// A tenth of a millimetre on a 90 m raster: what decimal spacings in files lose in a few thousand posts.
@@ -28,13 +35,6 @@ std::array<double, 6> inverted(std::array<double, 6> forward) {
     static_cast<void>(GDALInvGeoTransform(forward.data(), inverse.data()) == TRUE);
     return inverse;
 }
-
-struct DestroyTransform {
-    void operator()(OGRCoordinateTransformation* transform) const {
-        OGRCoordinateTransformation::DestroyCT(transform);
-    }
-};
-using Transform = std::unique_ptr<OGRCoordinateTransformation, DestroyTransform>;
 
 /// Whether a geographic system's coordinates are WGS84's, to 1e-9 degrees (0.1 mm), at a few places.
 bool same_as_wgs84(OGRCoordinateTransformation& to_wgs84) {

@@ -87,6 +87,10 @@ void GdalMessages::note(const char* message) {
     std::replace(last_.begin(), last_.end(), '\n', ' ');
 }
 
+std::string gdal_refusal(const std::string& file, std::string_view fault) {
+    return fmt::format("{}: {}", file, fault);
+}
+
 tl::expected<Dataset, std::string> open_raster(const std::string& file) {
     start_gdal();
     if (is_zip(file)) return open_zip(file);

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include <tl/expected.hpp>
 
@@ -33,6 +34,9 @@ class GdalMessages {
   private:
     std::string last_;
 };
+
+/// "file: fault".
+[[nodiscard]] std::string gdal_refusal(const std::string& file, std::string_view fault);
 
 /// Opens a raster file, a GDAL virtual path (/vsizip/..., /vsicurl/...) or a .zip that holds one raster.
 /// On failure: one sentence with the file and GDAL's reason.

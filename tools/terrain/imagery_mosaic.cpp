@@ -9,9 +9,7 @@ namespace eyepoint::tools {
 
 namespace {
 
-constexpr double kLikeSpacing = 1.5;
 constexpr double kDetailFactor = 1.3;
-constexpr double kMarginShare = 0.05;
 
 bool has_colour(const ColourGrid& grid, int column, int row) {
     if (column < 0 || row < 0 || column >= grid.columns || row >= grid.rows) return false;

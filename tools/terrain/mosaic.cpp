@@ -9,15 +9,12 @@ namespace eyepoint::tools {
 
 namespace {
 
-/// Grids whose spacings differ by less than this factor are of one class.
-constexpr double kLikeSpacing = 1.5;
 /// Detail is lost when posts are further apart than the source's; one part in a hundred is rounding, not
 /// loss.
 constexpr double kSpacingTolerance = 1.01;
 /// Keeps a place that only the outermost posts of a layer cover from having no weight at all within its
 /// class.
 constexpr float kLeastOwnWeight = 1e-4F;
-constexpr double kMarginShare = 0.05;
 constexpr double kMarginCoarserPosts = 20.0;
 constexpr double kLeastMarginPosts = 4.0;
 

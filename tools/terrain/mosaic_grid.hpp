@@ -15,6 +15,11 @@ namespace eyepoint::tools {
 
 enum class VerticalDatum : std::uint8_t { Egm96, Ellipsoid };
 
+/// Grids whose spacings differ by less than this factor are of one class.
+inline constexpr double kLikeSpacing = 1.5;
+/// Of a grid's shorter side: how far in from its edge it fades into what lies behind it.
+inline constexpr double kMarginShare = 0.05;
+
 inline constexpr float kVoid = std::numeric_limits<float>::quiet_NaN();
 [[nodiscard]] inline bool is_void(float height_m) { return std::isnan(height_m); }
 

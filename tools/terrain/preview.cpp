@@ -17,8 +17,6 @@ using namespace terrain;
 
 namespace {
 
-constexpr double kMetresPerDegree = kEquatorialRadiusM * std::numbers::pi / 180.0;
-
 /// The picture's pixels as places and heights.
 struct Raster {
     GeographicExtent extent;

@@ -14,14 +14,14 @@ namespace eyepoint::tools {
 
 namespace {
 
-struct Options {
+struct PreviewOptions {
     std::string database;
     std::string output;
     std::vector<double> extent;
     int size_px = 1024;
 };
 
-[[noreturn]] void fail(const std::string& reason) {
+[[noreturn]] void fail_preview(const std::string& reason) {
     fmt::print(stderr, "eyepoint-terrain preview: {}\n", reason);
     throw CLI::RuntimeError(1);
 }
@@ -31,18 +31,18 @@ void write_picture(const std::string& path, const ReliefPicture& picture) {
     const OIIO::ImageSpec spec{picture.width, picture.height, 3, OIIO::TypeDesc::UINT8};
     if (!file || !file->open(path, spec) || !file->write_image(OIIO::TypeDesc::UINT8, picture.rgb.data()) ||
         !file->close()) {
-        fail(fmt::format("{}: the picture cannot be written ({})", path,
-                         file ? file->geterror() : OIIO::geterror()));
+        fail_preview(fmt::format("{}: the picture cannot be written ({})", path,
+                                 file ? file->geterror() : OIIO::geterror()));
     }
 }
 
-terrain::GeographicExtent wanted_extent(const Options& options, const terrain::Database& database) {
+terrain::GeographicExtent wanted_extent(const PreviewOptions& options, const terrain::Database& database) {
     if (options.extent.empty()) return database.manifest().detail_extent;
     const terrain::GeographicExtent extent{options.extent[0], options.extent[1], options.extent[2],
                                            options.extent[3]};
     if (extent.west_deg < -180.0 || extent.east_deg > 180.0 || !(extent.west_deg < extent.east_deg) ||
         extent.south_deg < -90.0 || extent.north_deg > 90.0 || !(extent.south_deg < extent.north_deg)) {
-        fail(
+        fail_preview(
             "--extent wants W,S,E,N in degrees, west before east and south before north, such as "
             "7.9,46.2,8.6,46.7");
     }
@@ -52,7 +52,7 @@ terrain::GeographicExtent wanted_extent(const Options& options, const terrain::D
 }  // namespace
 
 void add_preview_command(CLI::App& application) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<PreviewOptions>();
     auto* command = application.add_subcommand(
         "preview",
         "Writes a shaded relief picture. Example: preview DB -o relief.png --extent 7.9,46.2,8.6,46.7");
@@ -66,9 +66,9 @@ void add_preview_command(CLI::App& application) {
         ->check(CLI::Range(16, 8192));
     command->callback([options] {
         const auto database = terrain::Database::open(options->database);
-        if (!database) fail(database.error());
+        if (!database) fail_preview(database.error());
         const auto picture = draw_relief(*database, wanted_extent(*options, *database), options->size_px);
-        if (!picture) fail(picture.error());
+        if (!picture) fail_preview(picture.error());
         write_picture(options->output, *picture);
     });
 }

@@ -15,19 +15,19 @@ namespace eyepoint::tools {
 
 namespace {
 
-struct Options {
+struct SynthOptions {
     SynthRequest request;
     std::string output;
     std::vector<double> centre;
     int benchmark_field = 0;
 };
 
-[[noreturn]] void fail(const std::string& reason) {
+[[noreturn]] void fail_synth(const std::string& reason) {
     fmt::print(stderr, "eyepoint-terrain synth: {}\n", reason);
     throw CLI::RuntimeError(1);
 }
 
-CompileRequest compile_request(const Options& options, const SynthSurface& surface,
+CompileRequest compile_request(const SynthOptions& options, const SynthSurface& surface,
                                const terrain::Geoid& geoid) {
     CompileRequest compile;
     compile.elevation = &surface;
@@ -43,35 +43,35 @@ CompileRequest compile_request(const Options& options, const SynthSurface& surfa
     return compile;
 }
 
-void synthesise(Options options) {
+void synthesise(SynthOptions options) {
     if (!options.centre.empty()) {
         options.request.centre_latitude_deg = options.centre[0];
         options.request.centre_longitude_deg = options.centre[1];
     }
     if (options.benchmark_field > 0) {
         if ((options.benchmark_field - 1) % terrain::kBlockCells != 0) {
-            fail(
+            fail_synth(
                 fmt::format("--benchmark-field {} is not 32 n + 1 posts; 16385 is", options.benchmark_field));
         }
         options.request.benchmark_field_posts = options.benchmark_field;
     }
     const auto geoid = terrain::Geoid::load(terrain::Geoid::default_grid());
-    if (!geoid) fail(geoid.error());
+    if (!geoid) fail_synth(geoid.error());
     watch_for_interruption();
     const auto surface = SynthSurface::make(options.request, *geoid, was_interrupted);
-    if (!surface) fail("interrupted; nothing was written");
+    if (!surface) fail_synth("interrupted; nothing was written");
     auto compile = compile_request(options, *surface, *geoid);
     ProgressBar bar{"synth"};
     compile.progress = [&bar](std::uint64_t done, std::uint64_t total) { bar.show(done, total); };
     const auto manifest = compile_database(compile);
-    if (!manifest) fail(manifest.error());
+    if (!manifest) fail_synth(manifest.error());
     fmt::print("{}: {} tiles to depth {}\n", options.output, manifest->tiles, manifest->max_depth);
 }
 
 }  // namespace
 
 void add_synth_command(CLI::App& application) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<SynthOptions>();
     auto* command = application.add_subcommand(
         "synth",
         "Makes a procedural planet with a mountain region; needs no data. Example: synth -o out/synth");

@@ -13,7 +13,6 @@ namespace eyepoint::tools {
 
 namespace {
 
-constexpr double kMetresPerDegree = terrain::kEquatorialRadiusM * std::numbers::pi / 180.0;
 /// Width of the broadest gullies, against the grid's spacing: what the grid itself is too coarse for.
 constexpr double kGullyPerSpacing = 4.0;
 
@@ -30,9 +29,9 @@ std::optional<SynthRegion> SynthRegion::make(const RegionShape& shape,
 std::optional<RegionSample> SynthRegion::sample(double latitude_deg, double longitude_deg) const {
     const HeightGrid& grid = valleys_.ground;
     const double east_deg = std::remainder(longitude_deg - shape_.centre_longitude_deg, 360.0);
-    const glm::dvec2 place{
-        east_deg * kMetresPerDegree * std::cos(shape_.centre_latitude_deg * std::numbers::pi / 180.0),
-        (latitude_deg - shape_.centre_latitude_deg) * kMetresPerDegree};
+    const glm::dvec2 place{east_deg * terrain::kMetresPerDegree *
+                               std::cos(shape_.centre_latitude_deg * std::numbers::pi / 180.0),
+                           (latitude_deg - shape_.centre_latitude_deg) * terrain::kMetresPerDegree};
     const double outermost = std::max(std::abs(place.x), std::abs(place.y)) / shape_.half_width_m;
     if (outermost >= 1.0) return std::nullopt;
     const glm::dvec2 at = column_row(grid, place);

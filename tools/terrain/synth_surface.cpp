@@ -15,7 +15,6 @@ using namespace terrain;
 namespace {
 
 constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
-constexpr double kMetresPerDegree = kEquatorialRadiusM * kRadiansPerDegree;
 /// Posts may be this share of the distance from the detailed ground apart, up to the planet's spacing.
 constexpr double kSpacingPerDistance = 0.018;
 constexpr double kPlanetSpacingM = 12'000.0;

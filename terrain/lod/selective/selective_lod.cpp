@@ -20,7 +20,7 @@ namespace {
 
 /// What a block may use of the tolerance where it is drawn with all its posts; the rest is its selection's.
 /// The less, the more blocks and the fewer triangles.
-constexpr double kBlockShare = 0.7;
+constexpr double kWholeBlockShare = 0.7;
 
 /// Left of what a selection stands for after it was worked out in floats.
 constexpr double kStandingKept = 0.999;
@@ -35,7 +35,7 @@ Ecef corner(const Block& block, int row, int column) {
 }  // namespace
 
 const Selection& SelectiveLod::select(const LodView& view, TileTree& tree, std::uint64_t frame) {
-    cut_.update(view, kBlockShare * view.tau_px, tree, frame);
+    cut_.update(view, kWholeBlockShare * view.tau_px, tree, frame);
     odometer_m_ += glm::distance(view.eye, eye_);
     eye_ = view.eye;
     collect(frame);

@@ -11,7 +11,7 @@
 namespace eyepoint::terrain {
 namespace {
 
-constexpr double kStepM = 1.0 / 16.0;
+constexpr double kHeightStepM = 1.0 / 16.0;
 
 TEST(Midpoint, RoundsDownAlsoBelowTheSea) {
     EXPECT_EQ(midpoint(4, 8), 6);
@@ -23,7 +23,7 @@ TEST(Midpoint, RoundsDownAlsoBelowTheSea) {
 TEST(VirtualTile, EvenPostsAreTheParents) {
     const BlockData parent = rough_block({4, 3, 9});
     for (int quadrant = 0; quadrant < 4; ++quadrant) {
-        const BlockData tile = subdivide(parent, quadrant, kStepM);
+        const BlockData tile = subdivide(parent, quadrant, kHeightStepM);
         EXPECT_EQ(tile.tile, child(parent.tile, quadrant));
         for (int row = 0; row <= kBlockCells; row += 2) {
             for (int column = 0; column <= kBlockCells; column += 2) {
@@ -43,7 +43,7 @@ TEST(VirtualTile, APlaneStaysAPlaneApronIncluded) {
                 static_cast<float>(3 * row - 5 * column) / 16.0F;
         }
     }
-    const BlockData tile = subdivide(parent, 3, kStepM);
+    const BlockData tile = subdivide(parent, 3, kHeightStepM);
     for (int row = -1; row <= kBlockPosts; ++row) {
         for (int column = -1; column <= kBlockPosts; ++column) {
             const double exact = (3.0 * (16 + row / 2.0) - 5.0 * (16 + column / 2.0)) / 16.0;
@@ -57,15 +57,15 @@ TEST(VirtualTile, APlaneStaysAPlaneApronIncluded) {
 TEST(VirtualTile, CellsAreSplitFromSouthWestToNorthEast) {
     BlockData parent;
     parent.heights_m[1 * kApronPosts + 2] = 80.0F;  // row 0, column 1
-    EXPECT_EQ(subdivide(parent, 0, kStepM).height_m(1, 1), 0.0F);
+    EXPECT_EQ(subdivide(parent, 0, kHeightStepM).height_m(1, 1), 0.0F);
     parent.heights_m[1 * kApronPosts + 1] = 80.0F;  // row 0, column 0
-    EXPECT_EQ(subdivide(parent, 0, kStepM).height_m(1, 1), 40.0F);
+    EXPECT_EQ(subdivide(parent, 0, kHeightStepM).height_m(1, 1), 40.0F);
 }
 
 TEST(VirtualTile, NeighboursShareTheirEdge) {
     const BlockData parent = rough_block({4, 3, 9});
-    const BlockData sw = subdivide(parent, 0, kStepM), se = subdivide(parent, 1, kStepM),
-                    nw = subdivide(parent, 2, kStepM);
+    const BlockData sw = subdivide(parent, 0, kHeightStepM), se = subdivide(parent, 1, kHeightStepM),
+                    nw = subdivide(parent, 2, kHeightStepM);
     for (int post = 0; post < kBlockPosts; ++post) {
         ASSERT_EQ(sw.height_m(post, kBlockCells), se.height_m(post, 0));
         ASSERT_EQ(sw.height_m(kBlockCells, post), nw.height_m(0, post));
@@ -109,7 +109,8 @@ TEST(VirtualTile, MeshSlidesTheOddPostsToTheParents) {
 TEST(VirtualTile, UndulationIsBilinear) {
     BlockData parent;
     parent.undulation_m = {0.0F, 4.0F, 8.0F, 20.0F};
-    EXPECT_EQ(subdivide(parent, 3, kStepM).undulation_m, (std::array<float, 4>{8.0F, 12.0F, 14.0F, 20.0F}));
+    EXPECT_EQ(subdivide(parent, 3, kHeightStepM).undulation_m,
+              (std::array<float, 4>{8.0F, 12.0F, 14.0F, 20.0F}));
 }
 
 }  // namespace

@@ -35,14 +35,14 @@ struct Lattice {
 };
 
 /// A triangle's edge, the triangle on its left.
-struct DirectedEdge {
+struct LatticeEdge {
     std::array<std::uint64_t, 2> ends{};  ///< names, the smaller first: equal for both sides of a shared edge
     bool forward = true;                  ///< from the smaller name to the larger
     std::array<std::int64_t, 2> a{};
     std::array<std::int64_t, 2> b{};
 };
 
-DirectedEdge make_edge(const Lattice& lattice, std::array<std::int64_t, 2> a, std::array<std::int64_t, 2> b) {
+LatticeEdge make_edge(const Lattice& lattice, std::array<std::int64_t, 2> a, std::array<std::int64_t, 2> b) {
     const std::uint64_t from = lattice.name(a), to = lattice.name(b);
     return {{std::min(from, to), std::max(from, to)}, from < to, a, b};
 }
@@ -60,7 +60,7 @@ bool same_bits(const terrain::BlockVertex& a, const terrain::BlockVertex& b) {
 
 /// Whether the place just across an edge (its triangle lies on its left, the place on its right) is in a
 /// drawn tile.
-bool drawn_across(const DirectedEdge& edge, const Lattice& lattice, const DrawnTiles& drawn) {
+bool drawn_across(const LatticeEdge& edge, const Lattice& lattice, const DrawnTiles& drawn) {
     const std::int64_t d_row = edge.b[0] - edge.a[0], d_column = edge.b[1] - edge.a[1];
     // Middle of the edge in half steps, moved half a step to the right of its direction.
     const std::int64_t row2 = edge.a[0] + edge.b[0] + (d_column > 0 ? -1 : d_column < 0 ? 1 : 0);
@@ -83,7 +83,7 @@ bool drawn_across(const DirectedEdge& edge, const Lattice& lattice, const DrawnT
 struct DrawnMesh {
     Lattice lattice;
     DrawnTiles drawn;
-    std::vector<DirectedEdge> edges;
+    std::vector<LatticeEdge> edges;
     std::vector<PostUse> posts;
     std::size_t folded = 0;
 
@@ -120,13 +120,12 @@ std::size_t count_unequal_bits(std::vector<PostUse>& posts) {
 void count_edge_faults(DrawnMesh& mesh, MeshFaults& faults) {
     auto& edges = mesh.edges;
     std::sort(edges.begin(), edges.end(),
-              [](const DirectedEdge& a, const DirectedEdge& b) { return a.ends < b.ends; });
+              [](const LatticeEdge& a, const LatticeEdge& b) { return a.ends < b.ends; });
     const std::int64_t pole = std::int64_t{terrain::tiles_up(mesh.lattice.depth)} * terrain::kBlockCells;
     for (auto first = edges.begin(); first != edges.end();) {
         const auto last = std::find_if(first, edges.end(),
-                                       [&](const DirectedEdge& edge) { return edge.ends != first->ends; });
-        const auto forward =
-            std::count_if(first, last, [](const DirectedEdge& edge) { return edge.forward; });
+                                       [&](const LatticeEdge& edge) { return edge.ends != first->ends; });
+        const auto forward = std::count_if(first, last, [](const LatticeEdge& edge) { return edge.forward; });
         const auto uses = last - first;
         ++faults.edges;
         if (forward > 1 || uses - forward > 1) ++faults.overlaps;

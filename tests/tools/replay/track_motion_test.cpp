@@ -9,14 +9,14 @@ namespace eyepoint::tools {
 namespace {
 
 constexpr double kStep_s = 1.0 / 30.0;
-constexpr double kRadian = 180.0 / std::numbers::pi;
+constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 
 // A level turn to the right at constant speed: course grows evenly.
 std::vector<Motion> right_turn(double speed_mps, double rate_deg_per_s, int samples) {
     std::vector<Motion> motions;
     for (int i = 0; i < samples; ++i) {
-        const double course = rate_deg_per_s * i * kStep_s / kRadian;
-        const double across = speed_mps * rate_deg_per_s / kRadian;
+        const double course = rate_deg_per_s * i * kStep_s / kDegreesPerRadian;
+        const double across = speed_mps * rate_deg_per_s / kDegreesPerRadian;
         motions.push_back({{speed_mps * std::cos(course), speed_mps * std::sin(course), 0.0},
                            {-across * std::sin(course), across * std::cos(course), 0.0}});
     }
@@ -47,8 +47,8 @@ TEST(CoordinatedAttitudes, YawFollowsTheCourseThroughNorth) {
 TEST(CoordinatedAttitudes, PitchIsTheFlightPathAngle) {
     const Motion climbing{{30.0, 40.0, -5.0}, {}};
     const auto attitude = coordinated_attitudes(std::vector{climbing}, kStep_s).front();
-    EXPECT_NEAR(attitude.pitch_deg, std::atan(0.1) * kRadian, 1e-9);
-    EXPECT_NEAR(attitude.yaw_deg, std::atan2(40.0, 30.0) * kRadian, 1e-9);
+    EXPECT_NEAR(attitude.pitch_deg, std::atan(0.1) * kDegreesPerRadian, 1e-9);
+    EXPECT_NEAR(attitude.yaw_deg, std::atan2(40.0, 30.0) * kDegreesPerRadian, 1e-9);
 }
 
 TEST(CoordinatedAttitudes, BankAndPitchAreLimited) {

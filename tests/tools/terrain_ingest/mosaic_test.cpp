@@ -7,6 +7,7 @@
 #include <GeographicLib/Geoid.hpp>
 #include <gtest/gtest.h>
 
+#include "tests/tools/terrain_ingest/mosaic_height.hpp"
 #include "tests/tools/terrain_ingest/raster_files.hpp"
 #include "tools/terrain/vertical_datum.hpp"
 
@@ -14,11 +15,6 @@ namespace eyepoint::tools {
 namespace {
 
 using testing::grid_of;
-
-float msl_at(const Mosaic& mosaic, double latitude_deg, double longitude_deg) {
-    const LatLon place = normalised(latitude_deg, longitude_deg);
-    return mosaic.sample_msl(std::span{&place, 1}).front().msl_height_m;
-}
 
 /// Rough ground above the sea, a function of the post alone.
 double rough(int column, int row) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/tools/terrain_ingest/mosaic_height.hpp"
 #include "tests/tools/terrain_ingest/raster_files.hpp"
 #include "tools/terrain/gdal_elevation.hpp"
 #include "tools/terrain/mosaic.hpp"
@@ -20,11 +21,6 @@ HeightGrid read(const std::string& file) {
     auto grid = read_elevation(input);
     if (!grid) throw std::runtime_error(grid.error());
     return std::move(*grid);
-}
-
-float msl_at(const Mosaic& mosaic, double latitude_deg, double longitude_deg) {
-    const LatLon place{latitude_deg, longitude_deg};
-    return mosaic.sample_msl(std::span{&place, 1}).front().msl_height_m;
 }
 
 TEST(RealElevation, AzoresTilesJoinWithoutASeam) {

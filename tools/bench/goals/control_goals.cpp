@@ -8,7 +8,7 @@ namespace eyepoint::tools {
 
 namespace {
 
-constexpr double kRateHz = 30.0;  // of the path
+constexpr double kPathRateHz = 30.0;  // of the path
 constexpr double kFloors = 1.5;
 constexpr int kFlights = 3;
 constexpr ig::ControlTarget kBounds{.tau_min_px = 0.1, .tau_max_px = 16.0, .nominal_tau_px = 2.0};
@@ -18,14 +18,14 @@ tl::expected<TargetScore, std::string> fly_controlled(ControlStage& stage,
     const auto coarsest = stage.fly(eyes, {.control = {}, .tau_px = kBounds.tau_max_px});
     if (!coarsest) return tl::unexpected(coarsest.error());
     ig::ControlTarget target = kBounds;
-    target.frame_ms = kFloors * score(*coarsest, kBounds, 1.0, kRateHz).median_ms;
+    target.frame_ms = kFloors * score(*coarsest, kBounds, 1.0, kPathRateHz).median_ms;
     std::vector<std::vector<ControlledFrame>> flights;
     for (int i = 0; i < kFlights; ++i) {
         auto flight = stage.fly(eyes, {.control = target});
         if (!flight) return tl::unexpected(flight.error());
         flights.push_back(*std::move(flight));
     }
-    return score(middle_flight(flights), target, target.frame_ms, kRateHz);
+    return score(middle_flight(flights), target, target.frame_ms, kPathRateHz);
 }
 
 }  // namespace

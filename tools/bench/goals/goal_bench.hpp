@@ -21,6 +21,8 @@ namespace eyepoint::tools {
 /// The field's measure of comparison: percentile 99.9 of the post error, pixels.
 inline constexpr double kComparedP999Px = 1.12;
 inline constexpr ig::PictureSize kGoalPicture{800, 800};
+/// Slack, pixels a pixel of tolerance.
+inline constexpr double kSlackShare = 0.1;
 
 struct GoalSettings {
     std::filesystem::path terrain;                ///< the benchmark field's database

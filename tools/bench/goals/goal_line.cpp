@@ -24,13 +24,13 @@ std::string target(const GoalLine& line) {
            with_unit(line.target, line.unit);
 }
 
-const char* name(Verdict verdict) {
+const char* name(GoalVerdict verdict) {
     switch (verdict) {
-        case Verdict::Met:
+        case GoalVerdict::Met:
             return "met";
-        case Verdict::Missed:
+        case GoalVerdict::Missed:
             return "MISSED";
-        case Verdict::NotMeasured:
+        case GoalVerdict::NotMeasured:
             break;
     }
     return "not measured";
@@ -46,10 +46,10 @@ std::string processor() {
 
 }  // namespace
 
-Verdict GoalLine::verdict() const {
-    if (!figure) return Verdict::NotMeasured;
+GoalVerdict GoalLine::verdict() const {
+    if (!figure) return GoalVerdict::NotMeasured;
     const bool good = sense == Sense::AtMost ? *figure <= target : *figure >= target;
-    return good ? Verdict::Met : Verdict::Missed;
+    return good ? GoalVerdict::Met : GoalVerdict::Missed;
 }
 
 GoalLine at_most(int goal, std::string what, std::optional<double> figure, double target, std::string unit) {
@@ -61,7 +61,8 @@ GoalLine at_least(int goal, std::string what, std::optional<double> figure, doub
 }
 
 bool any_missed(std::span<const GoalLine> lines) {
-    return std::ranges::any_of(lines, [](const GoalLine& line) { return line.verdict() == Verdict::Missed; });
+    return std::ranges::any_of(lines,
+                               [](const GoalLine& line) { return line.verdict() == GoalVerdict::Missed; });
 }
 
 std::string machine_name() {
@@ -84,7 +85,7 @@ std::string markdown(std::span<const GoalLine> lines, const std::string& machine
     std::string text = "# Goals, last run\n\nMachine: " + machine + "\n\n";
     text += "| goal | measured | figure | target | |\n| --- | --- | --- | --- | --- |\n";
     for (const GoalLine& line : lines) {
-        const char* emphasis = line.verdict() == Verdict::Missed ? "**" : "";
+        const char* emphasis = line.verdict() == GoalVerdict::Missed ? "**" : "";
         text += fmt::format("| {} | {} | {} | {} | {}{}{} |\n", line.goal, line.what, figure(line),
                             target(line), emphasis, name(line.verdict()), emphasis);
     }

@@ -9,7 +9,7 @@
 
 namespace eyepoint::tools {
 
-enum class Verdict { Met, Missed, NotMeasured };
+enum class GoalVerdict { Met, Missed, NotMeasured };
 
 struct GoalLine {
     enum class Sense { AtMost, AtLeast };
@@ -22,7 +22,7 @@ struct GoalLine {
     std::string unit;  ///< empty for counts and ratios
 
     /// A figure that is not a number is missed.
-    [[nodiscard]] Verdict verdict() const;
+    [[nodiscard]] GoalVerdict verdict() const;
 };
 
 [[nodiscard]] GoalLine at_most(int goal, std::string what, std::optional<double> figure, double target,

@@ -56,10 +56,6 @@ const std::array kSteps{
     Step{{15}, "running eyepoint at 60 Hz", measure_delay},
 };
 
-void write(const std::filesystem::path& file, const std::string& text) {
-    if (auto written = write_whole(file, text); !written) fail(written.error());
-}
-
 GoalChoice chosen_by(const GoalsRequest& request) {
     if (request.only.empty()) return {};
     const auto chosen = GoalChoice::parse(request.only);
@@ -93,7 +89,7 @@ void run(const GoalsRequest& request) {
     if (request.json) fmt::print("{}\n", to_json(report.lines(), machine, report.notes()).dump(2));
     if (!request.json)
         for (const std::string& note : report.notes()) fmt::print("{}\n", note);
-    if (!request.page.empty()) write(request.page, markdown(report.lines(), machine, report.notes()));
+    if (!request.page.empty()) write_or_fail(request.page, markdown(report.lines(), machine, report.notes()));
     if (any_missed(report.lines())) std::exit(EXIT_FAILURE);
 }
 

@@ -15,7 +15,7 @@ namespace eyepoint::tools {
 namespace {
 
 constexpr const char* kHere = "127.0.0.1";
-constexpr std::chrono::seconds kPatience{120};
+constexpr std::chrono::seconds kHostPatience{120};
 
 tl::expected<void, std::string> place(const net::UdpSocket& host, const net::Endpoint& to,
                                       const terrain::Geodetic& at) {
@@ -47,7 +47,8 @@ tl::expected<HostedProgram, std::string> HostedProgram::start(const std::filesys
     arguments.insert(arguments.begin(), needed.begin(), needed.end());
     auto process = ChildProcess::start(std::move(arguments));
     if (!process) return tl::unexpected(process.error());
-    if (!process->wait_for_error_text(fmt::format("ready: listening on {} port {}", kHere, port), kPatience))
+    if (!process->wait_for_error_text(fmt::format("ready: listening on {} port {}", kHere, port),
+                                      kHostPatience))
         return tl::unexpected("eyepoint did not start: " +
                               process->wait(std::chrono::seconds(0)).standard_error);
     return HostedProgram{*std::move(process), *std::move(host), *to};
@@ -73,7 +74,7 @@ double HostedProgram::cpu_s() const {
 
 tl::expected<void, std::string> HostedProgram::end() {
     process_.send_signal(SIGINT);
-    const Ending ending = process_.wait(kPatience);
+    const Ending ending = process_.wait(kHostPatience);
     if (ending.exit_code != 0) return tl::unexpected("eyepoint ended badly: " + ending.standard_error);
     return {};
 }

@@ -8,8 +8,6 @@ namespace eyepoint::tools {
 
 namespace {
 
-constexpr double kSlackShare = 0.1;
-
 /// A path at the field's measure of comparison, nothing hidden left out.
 GoalDone measure_path(GoalBench& bench, GoalReport& report, const std::string& name,
                       const std::vector<ig::FlightEye>& path, double most_triangles) {

@@ -16,7 +16,6 @@ namespace eyepoint::tools {
 
 namespace {
 
-constexpr double kSlackShare = 0.1;
 /// Of cruise, under callgrind: enough for blocks to change in them, few enough to load in a minute.
 constexpr int kCountedFrames = 60;
 

@@ -30,10 +30,6 @@ struct PapersRequest {
     std::string only;  ///< part of an experiment's name; empty: all
 };
 
-void write(const std::filesystem::path& file, const std::string& text) {
-    if (auto written = write_whole(file, text); !written) fail(written.error());
-}
-
 void run(PapersRequest request) {
     request.settings.programs = std::filesystem::read_symlink("/proc/self/exe").parent_path();
     const char* real_data = std::getenv("EYEPOINT_REAL_DATA");
@@ -52,8 +48,8 @@ void run(PapersRequest request) {
     const std::string page = markdown(tables, machine);
     fmt::print("{}", page);
     if (request.results.empty()) return;
-    write(request.results / "papers.md", page);
-    write(request.results / "papers.json", to_json(tables, machine).dump(2) + "\n");
+    write_or_fail(request.results / "papers.md", page);
+    write_or_fail(request.results / "papers.json", to_json(tables, machine).dump(2) + "\n");
 }
 
 }  // namespace

@@ -44,9 +44,9 @@ TEST(FrameGoals, SteadyFramesUploadNothingAndDoNotFollowAStaticMeshOrTheStart) {
 TEST(FrameGoals, ADearFrameMissesItsGoalAndACheapOneMeetsIt) {
     FlightResult dear = result_of();
     const auto verdict = [](const FlightResult& result) { return price_goals(result).front().verdict(); };
-    EXPECT_EQ(verdict(dear), Verdict::Missed);
+    EXPECT_EQ(verdict(dear), GoalVerdict::Missed);
     dear.columns["still_cpu_ms"] = {9.5, kAbsent, 9.5, kAbsent};
-    EXPECT_EQ(verdict(dear), Verdict::Met);
+    EXPECT_EQ(verdict(dear), GoalVerdict::Met);
 }
 
 TEST(FrameGoals, WhatWasNotMeasuredHasNoLine) { EXPECT_TRUE(frame_goals(FlightResult{}).empty()); }

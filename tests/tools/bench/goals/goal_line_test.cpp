@@ -15,20 +15,20 @@ using ::testing::StartsWith;
 constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
 TEST(GoalLine, OnTheTargetIsMetAndBeyondItIsMissed) {
-    EXPECT_EQ(at_most(1, "", 36000.0, 36000.0).verdict(), Verdict::Met);
-    EXPECT_EQ(at_most(1, "", 36001.0, 36000.0).verdict(), Verdict::Missed);
-    EXPECT_EQ(at_least(4, "", 99.0, 99.0).verdict(), Verdict::Met);
-    EXPECT_EQ(at_least(4, "", 98.9, 99.0).verdict(), Verdict::Missed);
+    EXPECT_EQ(at_most(1, "", 36000.0, 36000.0).verdict(), GoalVerdict::Met);
+    EXPECT_EQ(at_most(1, "", 36001.0, 36000.0).verdict(), GoalVerdict::Missed);
+    EXPECT_EQ(at_least(4, "", 99.0, 99.0).verdict(), GoalVerdict::Met);
+    EXPECT_EQ(at_least(4, "", 98.9, 99.0).verdict(), GoalVerdict::Missed);
 }
 
 TEST(GoalLine, AFigureThatIsNoNumberIsMissed) {
-    EXPECT_EQ(at_most(1, "", kNotANumber, 1.0).verdict(), Verdict::Missed);
-    EXPECT_EQ(at_least(1, "", kNotANumber, 1.0).verdict(), Verdict::Missed);
+    EXPECT_EQ(at_most(1, "", kNotANumber, 1.0).verdict(), GoalVerdict::Missed);
+    EXPECT_EQ(at_least(1, "", kNotANumber, 1.0).verdict(), GoalVerdict::Missed);
 }
 
 TEST(GoalLine, WhatWasNotMeasuredIsNeitherMetNorMissed) {
     const GoalLine line = at_most(4, "instructions", std::nullopt, 60.0);
-    EXPECT_EQ(line.verdict(), Verdict::NotMeasured);
+    EXPECT_EQ(line.verdict(), GoalVerdict::NotMeasured);
     EXPECT_THAT(describe(line), EndsWith("not measured"));
     EXPECT_FALSE(any_missed(std::array{line}));
 }

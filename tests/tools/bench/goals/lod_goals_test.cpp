@@ -12,14 +12,14 @@ namespace eyepoint::tools {
 namespace {
 
 TEST(MeshGoals, APostBeyondToleranceAndSlackIsMissed) {
-    EXPECT_EQ(post_error_goal(2.0, 0.1, 2.19).verdict(), Verdict::Met);
-    EXPECT_EQ(post_error_goal(2.0, 0.1, 2.21).verdict(), Verdict::Missed);
-    EXPECT_EQ(post_error_goal(2.0, 0.0, 2.19).verdict(), Verdict::Missed);
+    EXPECT_EQ(post_error_goal(2.0, 0.1, 2.19).verdict(), GoalVerdict::Met);
+    EXPECT_EQ(post_error_goal(2.0, 0.1, 2.21).verdict(), GoalVerdict::Missed);
+    EXPECT_EQ(post_error_goal(2.0, 0.0, 2.19).verdict(), GoalVerdict::Missed);
 }
 
 TEST(MeshGoals, JumpsAreHeldToAQuarterOfAPixel) {
-    EXPECT_EQ(jump_goal(1.85, 0.25).verdict(), Verdict::Met);
-    EXPECT_EQ(jump_goal(1.85, 0.26).verdict(), Verdict::Missed);
+    EXPECT_EQ(jump_goal(1.85, 0.25).verdict(), GoalVerdict::Met);
+    EXPECT_EQ(jump_goal(1.85, 0.26).verdict(), GoalVerdict::Missed);
 }
 
 FlightFigures selection_of(double ns_a_block) {
@@ -41,31 +41,31 @@ TEST(SelectionGoals, AreTakenAtOnePixelAndFlatnessOverAllTolerances) {
     EXPECT_DOUBLE_EQ(*lines[1].figure, 20.0) << "10 us for 200 blocks";
     EXPECT_DOUBLE_EQ(*lines[2].figure, 99.5);
     EXPECT_DOUBLE_EQ(*lines[3].figure, 12.0 / 9.0);
-    EXPECT_EQ(lines[3].verdict(), Verdict::Missed);
+    EXPECT_EQ(lines[3].verdict(), GoalVerdict::Missed);
     EXPECT_EQ(lines[4].goal, 7);
-    EXPECT_EQ(lines[4].verdict(), Verdict::Missed) << "one tolerance allocates";
+    EXPECT_EQ(lines[4].verdict(), GoalVerdict::Missed) << "one tolerance allocates";
 }
 
 TEST(SelectionGoals, InstructionsMayBeUnknown) {
-    EXPECT_EQ(instructions_goal(60.0).verdict(), Verdict::Met);
-    EXPECT_EQ(instructions_goal(61.0).verdict(), Verdict::Missed);
-    EXPECT_EQ(instructions_goal(std::nullopt).verdict(), Verdict::NotMeasured);
+    EXPECT_EQ(instructions_goal(60.0).verdict(), GoalVerdict::Met);
+    EXPECT_EQ(instructions_goal(61.0).verdict(), GoalVerdict::Missed);
+    EXPECT_EQ(instructions_goal(std::nullopt).verdict(), GoalVerdict::NotMeasured);
 }
 
 TEST(BlockGoals, AreTimeSizeAndTheCompilersPace) {
-    EXPECT_EQ(compiler_goal(7.9).verdict(), Verdict::Missed);
-    EXPECT_EQ(compiler_goal(8.1).verdict(), Verdict::Met);
-    EXPECT_EQ(block_goals({.median_ms = 0.31, .mesh_bits_a_post = 4.0})[0].verdict(), Verdict::Missed);
-    EXPECT_EQ(block_goals({.median_ms = 0.29, .mesh_bits_a_post = 9.0})[1].verdict(), Verdict::Missed);
+    EXPECT_EQ(compiler_goal(7.9).verdict(), GoalVerdict::Missed);
+    EXPECT_EQ(compiler_goal(8.1).verdict(), GoalVerdict::Met);
+    EXPECT_EQ(block_goals({.median_ms = 0.31, .mesh_bits_a_post = 4.0})[0].verdict(), GoalVerdict::Missed);
+    EXPECT_EQ(block_goals({.median_ms = 0.29, .mesh_bits_a_post = 9.0})[1].verdict(), GoalVerdict::Missed);
 }
 
 TEST(ControlGoals, AreShareWorstAndTail) {
     const auto lines = control_goals(
         {.target_ms = 10.0, .median_ms = 10.0, .p99_ms = 12.6, .worst_ms = 12.4, .share_within = 0.96});
     ASSERT_EQ(lines.size(), 3U);
-    EXPECT_EQ(lines[0].verdict(), Verdict::Met);
-    EXPECT_EQ(lines[1].verdict(), Verdict::Met);
-    EXPECT_EQ(lines[2].verdict(), Verdict::Missed);
+    EXPECT_EQ(lines[0].verdict(), GoalVerdict::Met);
+    EXPECT_EQ(lines[1].verdict(), GoalVerdict::Met);
+    EXPECT_EQ(lines[2].verdict(), GoalVerdict::Missed);
 }
 
 }  // namespace

@@ -19,15 +19,15 @@ TEST(ProgramGoals, EachPacketCountsOnceAndTheHeaderNot) {
 TEST(ProgramGoals, TheDelayIsTwoPeriodsAndAMillisecondForAllButOneInAHundred) {
     std::vector<double> delays(100, 34.0);
     delays[7] = 100.0;
-    EXPECT_EQ(delay_goal(delays).verdict(), Verdict::Met);
+    EXPECT_EQ(delay_goal(delays).verdict(), GoalVerdict::Met);
     delays[8] = 34.4;
-    EXPECT_EQ(delay_goal(delays).verdict(), Verdict::Missed);
-    EXPECT_EQ(delay_goal({}).verdict(), Verdict::NotMeasured);
+    EXPECT_EQ(delay_goal(delays).verdict(), GoalVerdict::Missed);
+    EXPECT_EQ(delay_goal({}).verdict(), GoalVerdict::NotMeasured);
 }
 
 TEST(ProgramGoals, AnIdleProgramMayTakeTwoPercent) {
-    EXPECT_EQ(idle_goal(1.9).verdict(), Verdict::Met);
-    EXPECT_EQ(idle_goal(2.1).verdict(), Verdict::Missed);
+    EXPECT_EQ(idle_goal(1.9).verdict(), GoalVerdict::Met);
+    EXPECT_EQ(idle_goal(2.1).verdict(), GoalVerdict::Missed);
 }
 
 }  // namespace
