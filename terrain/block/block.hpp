@@ -80,6 +80,7 @@ inline constexpr int kMeshCells = 8;
 /// comes from.
 struct NestedLevel {
     std::array<std::uint32_t, kMeshCells * kMeshCells + 1> cell_first{};
+    std::uint64_t filled = 0;  ///< bit n: cell n has triangles
     [[nodiscard]] std::uint32_t first() const { return cell_first.front(); }
     [[nodiscard]] std::uint32_t count() const { return cell_first.back() - cell_first.front(); }
 };

@@ -142,6 +142,7 @@ NestedLevel append_level(std::vector<std::uint16_t>& indices,
             if (a == b || b == c || a == c) continue;
             indices.insert(indices.end(), {a, b, c});
         }
+        result.filled |= std::uint64_t{indices.size() > result.cell_first[cell]} << cell;
     }
     result.cell_first[kCells] = static_cast<std::uint32_t>(indices.size());
     return result;

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "terrain/lod/cell_tests.hpp"
 #include "terrain/lod/error_level.hpp"
 #include "terrain/lod/nested_motion.hpp"
 
@@ -20,20 +21,11 @@ namespace {
 constexpr double kDistanceRounding = 1e-6;
 
 using Distances = std::array<double, kLevels>;
-using Floats = std::array<float, CellBoxes::kCells>;
-using Bytes = std::array<std::uint8_t, CellBoxes::kCells>;
+/// This cell, 0..64, and all after it.
+CellSet from_cell(int cell) { return cell < 64 ? ~CellSet{0} << cell : 0; }
 
-/// Bit n is byte n, 0 or 1: a product brings the low bits of eight bytes, one after the other, into its top
-/// byte.
-std::uint64_t bits(const Bytes& bytes) {
-    std::uint64_t result = 0;
-    for (std::size_t i = 0; i < CellBoxes::kCells; i += 8) {
-        std::uint64_t eight = 0;
-        for (std::size_t j = 0; j < 8; ++j) eight |= std::uint64_t{bytes[i + j]} << (8 * j);
-        result |= (eight * 0x0102040810204080) >> 56 << i;
-    }
-    return result;
-}
+/// Behind the last of the cells that follow one another from a cell of the set on.
+int run_end(CellSet cells, int begin) { return begin + std::countr_one(cells >> begin); }
 
 }  // namespace
 
@@ -62,9 +54,8 @@ struct CellCut::Frame {
 /// The view in the steps of a block's boxes.
 struct CellCut::LocalView {
     const CellBoxes& boxes;
-    std::array<float, 3> eye{};      ///< steps
-    std::array<float, 3> squares{};  ///< square metres a square step
-    double distance_m = 0.0;         ///< of the boxes' centre
+    StepPoint eye;
+    double distance_m = 0.0;  ///< of the boxes' centre
     double rounding_m = 0.0;
 
     LocalView(const CellBoxes& of, const LodView& view) : boxes(of) {
@@ -73,8 +64,8 @@ struct CellCut::LocalView {
         for (int axis = 0; axis < 3; ++axis) {
             const auto i = static_cast<std::size_t>(axis);
             const double step_m = double{boxes.step_m[axis]};
-            eye[i] = static_cast<float>((local[axis] - double{boxes.origin[axis]}) / step_m);
-            squares[i] = static_cast<float>(step_m * step_m);
+            eye.at[i] = static_cast<float>((local[axis] - double{boxes.origin[axis]}) / step_m);
+            eye.square_metres[i] = static_cast<float>(step_m * step_m);
         }
         distance_m = glm::length(from_centre);
         rounding_m = kDistanceRounding * (distance_m + double{boxes.radius_m});
@@ -84,43 +75,16 @@ struct CellCut::LocalView {
     [[nodiscard]] double farthest_m() const { return distance_m + double{boxes.radius_m}; }
     [[nodiscard]] float square(double distance) const { return static_cast<float>(distance * distance); }
 
-    void near_squares(const CellBoxes::Level& level, Floats& result) const {
-        result.fill(0.0F);
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const float at = eye[axis], scale = squares[axis];
-            for (std::size_t i = 0; i < CellBoxes::kCells; ++i) {
-                const float below = static_cast<float>(level.low[axis][i]) - at;
-                const float above = at - static_cast<float>(level.high[axis][i]);
-                const float beyond = below > above ? below : above;
-                const float off = beyond > 0.0F ? beyond : 0.0F;
-                result[i] += scale * off * off;
-            }
-        }
-    }
-    void far_squares(const CellBoxes::Level& level, Floats& result) const {
-        result.fill(0.0F);
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const float at = eye[axis], scale = squares[axis];
-            for (std::size_t i = 0; i < CellBoxes::kCells; ++i) {
-                const float to_low = at - static_cast<float>(level.low[axis][i]);
-                const float to_high = static_cast<float>(level.high[axis][i]) - at;
-                const float off = to_low > to_high ? to_low : to_high;
-                result[i] += scale * off * off;
-            }
-        }
-    }
-    /// How far inside a side of the view the boxes reach, metres.
-    void inward(const CellBoxes::Level& level, const LodView& view, unsigned side, Floats& result) const {
+    /// How far inside a side of the view.
+    [[nodiscard]] StepPlane inward(const LodView& view, unsigned side) const {
         const glm::dvec3 normal = glm::transpose(boxes.axes) * view.sides[side];
-        result.fill(static_cast<float>(glm::dot(view.sides[side], boxes.centre - view.eye) +
-                                       glm::dot(normal, glm::dvec3{boxes.origin})));
-        for (int axis = 0; axis < 3; ++axis) {
-            const auto row = static_cast<std::size_t>(axis);
-            const auto slope = static_cast<float>(normal[axis] * double{boxes.step_m[axis]});
-            const CellBoxes::Side& inner = slope > 0.0F ? level.high[row] : level.low[row];
-            for (std::size_t i = 0; i < CellBoxes::kCells; ++i)
-                result[i] += slope * static_cast<float>(inner[i]);
-        }
+        StepPlane plane{static_cast<float>(glm::dot(view.sides[side], boxes.centre - view.eye) +
+                                           glm::dot(normal, glm::dvec3{boxes.origin})),
+                        {}};
+        for (int axis = 0; axis < 3; ++axis)
+            plane.slope_m[static_cast<std::size_t>(axis)] =
+                static_cast<float>(normal[axis] * double{boxes.step_m[axis]});
+        return plane;
     }
 };
 
@@ -146,15 +110,15 @@ void CellCut::cut_block(const Frame& frame, const BlockDraw& draw, unsigned side
     }
     const LocalView local(block.cell_boxes, frame.view);
     const bool one_level = draw.level == block.last_level || local.farthest_m() < frame.least(draw.level + 1);
-    const std::uint64_t outside = sides != 0 ? find_outside(frame, local, draw, sides) : 0;
+    const CellSet outside = sides != 0 ? find_outside(frame, local, draw, sides) : 0;
     if (one_level && outside == 0) {
         kept_.push_back(draw);
         return;
     }
     selection.triangles -= draw.indices.count / 3;
-    std::uint64_t here = ~std::uint64_t{0};  // this level or a coarser one
+    CellSet here = ~CellSet{0};  // this level or a coarser one
     for (int level = draw.level; here != 0; ++level) {
-        const std::uint64_t coarser = level < block.last_level ? here & allowing(frame, local, level + 1) : 0;
+        const CellSet coarser = level < block.last_level ? here & allowing(frame, local, level + 1) : 0;
         keep(draw, static_cast<std::uint8_t>(level), here & ~coarser, ~here | (coarser & ~outside), ~outside,
              selection);
         here = coarser;
@@ -162,48 +126,37 @@ void CellCut::cut_block(const Frame& frame, const BlockDraw& draw, unsigned side
 }
 
 /// The cells that may be drawn with the list of a level.
-std::uint64_t CellCut::allowing(const Frame& frame, const LocalView& local, int level) {
+CellSet CellCut::allowing(const Frame& frame, const LocalView& local, int level) {
     const double least_m = frame.least(level) + local.rounding_m;
     if (local.farthest_m() < least_m) return 0;
-    Floats squares;
-    local.near_squares(local.boxes.at(level - 1), squares);
-    const float least_square = local.square(least_m);
-    Bytes far;
-    for (std::size_t i = 0; i < CellBoxes::kCells; ++i)
-        far[i] = static_cast<std::uint8_t>(squares[i] >= least_square ? 1 : 0);
-    return bits(far);
+    return cells_beyond(local.boxes.at(level - 1), local.eye, local.square(least_m));
 }
 
 /// The cells beside the view: each by its box for the first level that is nowhere exceeded in it. A floor
 /// counts as asked for. Boxes grow with the level: what is not outside at one is not at the next.
-std::uint64_t CellCut::find_outside(const Frame& frame, const LocalView& local, const BlockDraw& draw,
-                                    unsigned sides) {
+CellSet CellCut::find_outside(const Frame& frame, const LocalView& local, const BlockDraw& draw,
+                              unsigned sides) {
     const int floor = *std::max_element(draw.floors.begin(), draw.floors.end());
     int level = std::max({int{draw.level}, int{local.boxes.first_level}, floor});
     const int last = local.boxes.last_level();
     while (level < last && frame.most(level) < local.nearest_m()) ++level;
     const auto least_m =
         static_cast<float>(-local.rounding_m - frame.tolerance_m(std::max(local.farthest_m(), 0.0)));
-    std::uint64_t outside = 0, open = ~std::uint64_t{0};
+    std::array<StepPlane, 4> planes;
+    for (unsigned side = 0; side < 4; ++side) {
+        if ((sides >> side & 1U) != 0) planes[side] = local.inward(frame.view, side);
+    }
+    CellSet outside = 0, open = ~CellSet{0};
     for (; level <= last; ++level) {
         const CellBoxes::Level& boxes = local.boxes.at(level);
-        Bytes beyond{};
+        CellSet beyond = 0;
         for (unsigned side = 0; side < 4; ++side) {
-            if ((sides >> side & 1U) == 0) continue;
-            Floats inward_m;
-            local.inward(boxes, frame.view, side, inward_m);
-            for (std::size_t i = 0; i < CellBoxes::kCells; ++i)
-                beyond[i] = static_cast<std::uint8_t>(inward_m[i] < least_m ? 1 : beyond[i]);
+            if ((sides >> side & 1U) != 0) beyond |= cells_below(boxes, planes[side], least_m);
         }
-        open &= bits(beyond);
+        open &= beyond;
         if (open == 0) break;
-        Floats squares;
-        local.far_squares(boxes, squares);
-        const float most_square = local.square(std::max(frame.most(level) - local.rounding_m, 0.0));
-        Bytes bounded;
-        for (std::size_t i = 0; i < CellBoxes::kCells; ++i)
-            bounded[i] = static_cast<std::uint8_t>(squares[i] <= most_square ? 1 : 0);
-        const std::uint64_t now = open & bits(bounded);
+        const double most_m = std::max(frame.most(level) - local.rounding_m, 0.0);
+        const CellSet now = open & cells_within(boxes, local.eye, local.square(most_m));
         outside |= now;
         open &= ~now;
     }
@@ -213,22 +166,20 @@ std::uint64_t CellCut::find_outside(const Frame& frame, const LocalView& local, 
 /// A draw for every run of a level's cells that are in view. No gap is drawn with a cell that the level is
 /// not right for, though it be beside the view (its triangles could come into it), nor with one of another
 /// level that is in view, be it empty at this one.
-void CellCut::keep(const BlockDraw& draw, std::uint8_t level, std::uint64_t cells, std::uint64_t barred,
-                   std::uint64_t in_view, Selection& selection) {
+void CellCut::keep(const BlockDraw& draw, std::uint8_t level, CellSet cells, CellSet barred, CellSet in_view,
+                   Selection& selection) {
     const Block& block = *draw.node->block;
-    const auto& first = block.levels[static_cast<std::size_t>(level - block.first_level)].cell_first;
-    Bytes filled;
-    for (std::size_t i = 0; i < CellBoxes::kCells; ++i)
-        filled[i] = static_cast<std::uint8_t>(first[i] != first[i + 1] ? 1 : 0);
-    for (std::uint64_t left = cells & in_view & bits(filled); left != 0;) {
+    const NestedLevel& list = block.levels[static_cast<std::size_t>(level - block.first_level)];
+    const auto& first = list.cell_first;
+    for (CellSet left = cells & in_view & list.filled; left != 0;) {
         const int begin = std::countr_zero(left);
-        int end = begin + 1;
-        for (left &= left - 1; left != 0; left &= left - 1) {
+        int end = run_end(left, begin);
+        for (left &= from_cell(end); left != 0; left &= from_cell(end)) {
             const int next = std::countr_zero(left);
-            const std::uint64_t gap = (std::uint64_t{1} << next) - (std::uint64_t{1} << end);
+            const CellSet gap = from_cell(end) & ~from_cell(next);
             const auto from = static_cast<std::size_t>(end), to = static_cast<std::size_t>(next);
             if ((gap & barred) != 0 || first[to] - first[from] >= kGapIndices) break;
-            end = next + 1;
+            end = run_end(left, next);
         }
         const std::uint32_t start = first[static_cast<std::size_t>(begin)];
         kept_.push_back(draw);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "terrain/block/cell_boxes.hpp"
+#include "terrain/lod/cell_tests.hpp"
 #include "terrain/lod/lod_method.hpp"
 
 namespace eyepoint::terrain {
@@ -31,13 +32,13 @@ class CellCut {
 
   private:
     struct Frame;
-    struct LocalView;  // sets of cells below: bit n for cell n
+    struct LocalView;
     void cut_block(const Frame& frame, const BlockDraw& draw, unsigned sides, Selection& selection);
-    static std::uint64_t allowing(const Frame& frame, const LocalView& local, int level);
-    static std::uint64_t find_outside(const Frame& frame, const LocalView& local, const BlockDraw& draw,
-                                      unsigned sides);
-    void keep(const BlockDraw& draw, std::uint8_t level, std::uint64_t cells, std::uint64_t barred,
-              std::uint64_t in_view, Selection& selection);
+    static CellSet allowing(const Frame& frame, const LocalView& local, int level);
+    static CellSet find_outside(const Frame& frame, const LocalView& local, const BlockDraw& draw,
+                                unsigned sides);
+    void keep(const BlockDraw& draw, std::uint8_t level, CellSet cells, CellSet barred, CellSet in_view,
+              Selection& selection);
 
     std::vector<BlockDraw> kept_;
 };
