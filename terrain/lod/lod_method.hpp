@@ -19,6 +19,10 @@
 
 namespace eyepoint::terrain {
 
+/// What a method keeps of a block it keeps for so many frames after the block's last use, and drops in every
+/// so-manieth.
+inline constexpr std::uint64_t kHeldFrames = 120, kDropEvery = 32;
+
 /// What a method must know of a view.
 struct LodView {
     Ecef eye{0.0};

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -27,17 +26,13 @@ inline Bytes from_hex(std::string_view hex) {
 /// A copy in an allocation of exactly its size, so that AddressSanitizer sees a read of one byte too many.
 class ExactCopy {
   public:
-    explicit ExactCopy(std::span<const std::byte> bytes)
-        : bytes_(std::make_unique<std::byte[]>(bytes.size())), size_(bytes.size()) {
-        for (std::size_t i = 0; i < size_; ++i) bytes_[i] = bytes[i];
-    }
+    explicit ExactCopy(std::span<const std::byte> bytes) : bytes_(bytes.begin(), bytes.end()) {}
     /// Of the first `size` bytes.
     ExactCopy(std::span<const std::byte> bytes, std::size_t size) : ExactCopy(bytes.first(size)) {}
-    [[nodiscard]] std::span<const std::byte> span() const { return {bytes_.get(), size_}; }
+    [[nodiscard]] std::span<const std::byte> span() const { return bytes_; }
 
   private:
-    std::unique_ptr<std::byte[]> bytes_;
-    std::size_t size_;
+    std::vector<std::byte> bytes_;  ///< copied from a pair of iterators: no capacity to spare
 };
 
 inline Bytes operator+(Bytes a, const Bytes& b) {

@@ -25,8 +25,6 @@ constexpr double kWholeBlockShare = 0.7;
 /// Left of what a selection stands for after it was worked out in floats.
 constexpr double kStandingKept = 0.999;
 
-/// Blocks that are not drawn keep their selection so long, and are looked for so often.
-constexpr std::uint64_t kHeldFrames = 120, kDropEvery = 32;
 
 Ecef corner(const Block& block, int row, int column) {
     return block.vertices[static_cast<std::size_t>(row * kBlockPosts + column)].position();
