@@ -68,6 +68,7 @@ void DrawCommands::clear() {
 }
 
 void DrawCommands::add(terrain::IndexRange range, std::uint32_t first_index, std::uint32_t slot) {
+    if (range.count == 0) return;  // Mesa 22.3 draws nothing at all where one of several draws is empty
     const std::size_t offset = (std::size_t{first_index} + range.first) * sizeof(std::uint16_t);
     counts.push_back(static_cast<GLsizei>(range.count));
     // NOLINTNEXTLINE(performance-no-int-to-ptr): OpenGL takes offsets into a buffer as pointers.

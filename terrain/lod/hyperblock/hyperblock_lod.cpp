@@ -18,8 +18,6 @@ using selective::BorderSelection;
 
 namespace {
 
-/// Tiles that are not drawn are kept so long, and are looked for so often.
-constexpr std::uint64_t kHeldFrames = 120, kDropEvery = 32;
 
 /// The points on the tile's edges that the chosen triangulations have; on edges of blocks that are out of
 /// view, all posts: then a dike there stays by the surface.
