@@ -33,13 +33,14 @@ void check_state(const HostState* state) {
         check_angles(view.attitude);
         for (const double offset : view.offset_m) RC_ASSERT(std::isfinite(offset));
         for (const auto& angle : {view.left_deg, view.right_deg, view.bottom_deg, view.top_deg}) {
-            RC_ASSERT(!angle || std::abs(*angle) < 90.0);
+            // In parentheses of its own: RapidCheck would evaluate both sides of the ||.
+            RC_ASSERT((!angle || std::abs(*angle) < 90.0));
         }
-        RC_ASSERT(!view.left_deg || !view.right_deg || *view.left_deg < *view.right_deg);
-        RC_ASSERT(!view.bottom_deg || !view.top_deg || *view.bottom_deg < *view.top_deg);
-        RC_ASSERT(!view.near_m || (std::isfinite(*view.near_m) && *view.near_m > 0.0));
+        RC_ASSERT((!view.left_deg || !view.right_deg || *view.left_deg < *view.right_deg));
+        RC_ASSERT((!view.bottom_deg || !view.top_deg || *view.bottom_deg < *view.top_deg));
+        RC_ASSERT((!view.near_m || (std::isfinite(*view.near_m) && *view.near_m > 0.0)));
     }
-    RC_ASSERT(!state->host_time_s || std::isfinite(*state->host_time_s));
+    RC_ASSERT((!state->host_time_s || std::isfinite(*state->host_time_s)));
 }
 
 Bytes as_bytes(const std::vector<std::uint8_t>& numbers) {

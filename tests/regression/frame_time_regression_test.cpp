@@ -97,10 +97,25 @@ TEST(FrameTimeRegression, CountsAreThoseInTheTree) {
     EXPECT_TRUE(comparison.passes(true)) << describe(comparison);
 }
 
+/// Flown several times; of each frame the least times, because what other programs do beside only adds.
+FlightResult calm(const tools::BenchOptions& options) {
+    constexpr int kFlights = 3;
+    FlightResult result = flown(options);
+    for (int flight = 1; flight < kFlights; ++flight) {
+        const FlightResult again = flown(options);
+        for (auto& [key, column] : result.columns) {
+            if (!tools::is_timing(key)) continue;
+            std::ranges::transform(column, again.columns.at(key), column.begin(),
+                                   [](double one, double other) { return std::min(one, other); });
+        }
+    }
+    return result;
+}
+
 TEST(FrameTimeRegression, RatiosAreInTheirBands) {
     tools::BenchOptions options = way_of_flying();
     options.still_every = 2;
-    for (const tools::ComparedLine& line : judge(flown(options), value_or_throw(tools::read_bands(kBands)))) {
+    for (const tools::ComparedLine& line : judge(calm(options), value_or_throw(tools::read_bands(kBands)))) {
         EXPECT_EQ(line.verdict, Verdict::Same) << line.what << ": " << line.after << "; " << line.remark;
     }
 }
