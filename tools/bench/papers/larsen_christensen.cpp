@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstdint>
 
 #include <fmt/format.h>
@@ -10,9 +9,8 @@
 #include "ig/lod_view.hpp"
 #include "tools/bench/eyes.hpp"
 #include "tools/bench/goals/drawing_goals.hpp"
-#include "tools/bench/goals/scratch_folder.hpp"
 #include "tools/bench/measure/tolerance_match.hpp"
-#include "tools/process/child_process.hpp"
+#include "tools/bench/papers/built_field.hpp"
 
 namespace eyepoint::tools {
 
@@ -52,45 +50,32 @@ class Cut {
     [[nodiscard]] tl::expected<PaperRow, std::string> measure(const TimedLine& line) const;
 
   private:
-    Cut(ScratchFolder scratch, std::shared_ptr<const terrain::Database> database,
-        std::vector<ig::FlightEye> eyes)
-        : scratch_(std::move(scratch)), database_(std::move(database)), eyes_(std::move(eyes)) {}
+    Cut(BuiltField field, std::vector<ig::FlightEye> eyes)
+        : field_(std::move(field)), eyes_(std::move(eyes)) {}
     [[nodiscard]] std::vector<terrain::LodView> views(std::size_t every) const;
     [[nodiscard]] tl::expected<FlightFigures, std::string> errors(const terrain::tiles::Options& tile) const;
     [[nodiscard]] tl::expected<ToleranceMatch, std::string> match_default(double p999_px) const;
 
-    ScratchFolder scratch_;
-    std::shared_ptr<const terrain::Database> database_;
+    BuiltField field_;
     std::vector<ig::FlightEye> eyes_;
 };
 
-tl::expected<void, std::string> build(const PaperSettings& settings, int posts,
-                                      const std::filesystem::path& folder) {
-    constexpr std::chrono::minutes kPatience{30};
+/// The depth at which the benchmark field has so many posts.
+int depth_of(int posts) {
     int depth = kFullDepth;
     for (int full = kFullPosts; full > posts; full = (full + 1) / 2) --depth;
-    auto child =
-        ChildProcess::start({(settings.programs / "eyepoint-terrain").string(), "build", "--dem",
-                             (settings.benchmark / "rainier-refined-4097.tif").string(), "--vertical",
-                             "ellipsoid", "--max-depth", fmt::format("{}", depth), "-o", folder.string()});
-    if (!child) return tl::unexpected(child.error());
-    const Ending ending = child->wait(kPatience);
-    if (ending.exit_code == 0) return {};
-    return tl::unexpected("eyepoint-terrain failed: " + ending.standard_error);
+    return depth;
 }
 
 tl::expected<Cut, std::string> Cut::make(const PaperSettings& settings, int posts) {
-    auto scratch = ScratchFolder::create();
-    if (!scratch) return tl::unexpected(scratch.error());
-    const auto folder = scratch->path() / "cut";
-    if (auto built = build(settings, posts, folder); !built) return tl::unexpected(built.error());
-    auto database = terrain::Database::open(folder);
-    if (!database) return tl::unexpected(database.error());
+    auto field =
+        BuiltField::build(settings, {"--dem", (settings.benchmark / "rainier-refined-4097.tif").string(),
+                                     "--max-depth", fmt::format("{}", depth_of(posts))});
+    if (!field) return tl::unexpected(field.error());
     auto eyes = read_eyes({.file = settings.benchmark / "cruise.csv", .size = kGoalPicture});
     if (!eyes) return tl::unexpected(eyes.error());
     eyes->resize(std::min(eyes->size(), kFlownFrames));
-    return Cut{std::move(*scratch), std::make_shared<const terrain::Database>(std::move(*database)),
-               every_nth(*eyes, kFramesAnEye)};
+    return Cut{std::move(*field), every_nth(*eyes, kFramesAnEye)};
 }
 
 std::vector<terrain::LodView> Cut::views(std::size_t every) const {
@@ -101,18 +86,18 @@ std::vector<terrain::LodView> Cut::views(std::size_t every) const {
 }
 
 tl::expected<FlightFigures, std::string> Cut::errors(const terrain::tiles::Options& tile) const {
-    auto flight = LodFlight::create(database_, {.lod_method = "tile", .tile = tile});
+    auto flight = LodFlight::create(field_.database(), {.lod_method = "tile", .tile = tile});
     if (!flight) return tl::unexpected(flight.error());
-    FullSurface surface(database_);
+    FullSurface surface(field_.database());
     const auto frames = measure_flight(**flight, surface, views(1), {.every = kEyesAMeasure, .pops = false});
     if (!frames) return tl::unexpected(frames.error());
     return summarise(*frames);
 }
 
 tl::expected<ToleranceMatch, std::string> Cut::match_default(double p999_px) const {
-    auto flight = LodFlight::create(database_, {});
+    auto flight = LodFlight::create(field_.database(), {});
     if (!flight) return tl::unexpected(flight.error());
-    FullSurface surface(database_);
+    FullSurface surface(field_.database());
     return match_p999(**flight, surface, views(kEyesAMeasure), p999_px, 0.0,
                       {.pops = false, .faults = false});
 }
@@ -129,7 +114,7 @@ tl::expected<PaperRow, std::string> Cut::measure(const TimedLine& line) const {
     const auto match = match_default(p999_px);
     if (!match) return tl::unexpected(match.error());
     const std::array scenes{without, with, goal_scene("nested", match->tau_px)};
-    const auto frames = draw_by_turns(database_, scenes, eyes_, kGoalPicture, kTurns);
+    const auto frames = draw_by_turns(field_.database(), scenes, eyes_, kGoalPicture, kTurns);
     if (!frames) return tl::unexpected(frames.error());
     const auto a_second = [](const std::vector<TurnFrame>& drawn) {
         return 1000.0 / median_of(drawn, cpu_ms);

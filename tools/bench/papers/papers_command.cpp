@@ -10,6 +10,7 @@
 #include "tools/bench/papers/he_wang_liu.hpp"
 #include "tools/bench/papers/hyperblock_quadtin.hpp"
 #include "tools/bench/papers/larsen_christensen.hpp"
+#include "tools/bench/papers/ueng_chuang.hpp"
 #include "tools/report/page.hpp"
 
 namespace eyepoint::tools {
@@ -20,7 +21,8 @@ struct Named {
     const char* doing;
     PaperExperiment experiment;
 };
-constexpr std::array kExperiments{Named{"He, Wang & Liu, table 1", he_wang_liu_table_1},
+constexpr std::array kExperiments{Named{"Ueng & Chuang, tables 1 to 3", ueng_chuang_tables_1_to_3},
+                                  Named{"He, Wang & Liu, table 1", he_wang_liu_table_1},
                                   Named{"Larsen & Christensen, table 7", larsen_christensen_table_7},
                                   Named{"HyperBlock-QuadTIN, figures 14 to 16", hyperblock_figures_14_to_16}};
 
