@@ -18,7 +18,6 @@ using selective::BorderSelection;
 
 namespace {
 
-
 /// The points on the tile's edges that the chosen triangulations have; on edges of blocks that are out of
 /// view, all posts: then a dike there stays by the surface.
 BorderSelection border_of(const TileBlocks& tile, const hyperblock::PointSet& points) {

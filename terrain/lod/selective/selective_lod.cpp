@@ -25,7 +25,6 @@ constexpr double kWholeBlockShare = 0.7;
 /// Left of what a selection stands for after it was worked out in floats.
 constexpr double kStandingKept = 0.999;
 
-
 Ecef corner(const Block& block, int row, int column) {
     return block.vertices[static_cast<std::size_t>(row * kBlockPosts + column)].position();
 }
