@@ -40,4 +40,19 @@ class ScratchFolder {
     std::filesystem::path path_;
 };
 
+/// A database of a terrain in a folder of its own. Dear to make: the tests of a file share one.
+class AnalyticPlanet {
+  public:
+    explicit AnalyticPlanet(const AnalyticTerrain& terrain)
+        : terrain_(terrain), database_(make_database(terrain, scratch_.path() / "db")) {}
+
+    [[nodiscard]] const AnalyticTerrain& terrain() const { return terrain_; }
+    [[nodiscard]] const std::shared_ptr<const terrain::Database>& database() const { return database_; }
+
+  private:
+    ScratchFolder scratch_;
+    AnalyticTerrain terrain_;
+    std::shared_ptr<const terrain::Database> database_;
+};
+
 }  // namespace eyepoint::testing

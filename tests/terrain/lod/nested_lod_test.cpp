@@ -12,6 +12,7 @@
 #include "terrain/lod/nested_motion.hpp"
 #include "tests/support/analytic_terrain.hpp"
 #include "tests/terrain/lod/look.hpp"
+#include "tests/terrain/lod/method_flight.hpp"
 #include "tests/terrain/lod/nested_mesh.hpp"
 #include "tests/terrain/lod/pattern_planet.hpp"
 #include "tools/bench/allocation_count.hpp"
@@ -63,34 +64,11 @@ class NestedLodTest : public ::testing::Test {
 std::unique_ptr<testing::ScratchFolder> NestedLodTest::scratch_;
 std::shared_ptr<const Database> NestedLodTest::database_;
 
-/// A pager and a method, of whole blocks or cut into cells, that go from view to view.
-class Flight {
-  public:
-    Flight(std::unique_ptr<Pager> pager, bool reuse, bool cut = false)
-        : pager_(std::move(pager)), lod_(reuse, false, cut) {}
+using NestedFlight = testing::MethodFlight<NestedLod>;
 
-    /// Everything the view asks for, loaded; then the selection.
-    const Selection& settle(const LodView& view) {
-        while (true) {
-            pager_->publish(100000, frame_);
-            const Selection& selection = step(view);
-            if (!pager_->wait_for_loads()) return selection;
-        }
-    }
-    const Selection& select(const LodView& view) { return lod_.select(view, pager_->tree(), ++frame_); }
-    const Selection& step(const LodView& view) {
-        const Selection& selection = select(view);
-        pager_->request(selection.wishes);
-        return selection;
-    }
-    Pager& pager() { return *pager_; }
-    std::uint64_t& frame() { return frame_; }
-
-  private:
-    std::unique_ptr<Pager> pager_;
-    NestedLod lod_;
-    std::uint64_t frame_ = 0;
-};
+NestedFlight fly(std::unique_ptr<Pager> pager, bool reuse, bool cut = false) {
+    return NestedFlight{std::move(pager), reuse, false, cut};
+}
 
 void expect_whole(const Selection& selection, const LodView& view, const std::string& where) {
     const NestedFaults faults = find_nested_faults(selection.draws, motion_view(view));
@@ -111,7 +89,7 @@ Stand random_stand(std::mt19937_64& random, const Stand& middle) {
 }
 
 TEST_F(NestedLodTest, DrawnMeshHasNoCracksFromRandomEyes) {
-    Flight flight(open(), true);
+    NestedFlight flight = fly(open(), true);
     std::mt19937_64 random(20261122);
     const std::array<Stand, 4> places{Stand{46.5, 8.25}, Stand{0.0, 0.0}, Stand{-16.8, 180.0},
                                       Stand{89.7, 30.0}};
@@ -123,7 +101,7 @@ TEST_F(NestedLodTest, DrawnMeshHasNoCracksFromRandomEyes) {
 }
 
 TEST_F(NestedLodTest, HasNoCracksWhileBlocksAreStillArriving) {
-    Flight flight(open(), true);
+    NestedFlight flight = fly(open(), true);
     std::mt19937_64 random(7);
     for (int i = 0; i < 6; ++i) {
         const LodView view = look_from(random_stand(random, {46.5, 8.25}), 1.0);
@@ -131,14 +109,13 @@ TEST_F(NestedLodTest, HasNoCracksWhileBlocksAreStillArriving) {
             const Selection& selection = flight.step(view);
             expect_whole(selection, view, "eye " + std::to_string(i) + ", frame " + std::to_string(frame));
             if (selection.wishes.empty()) break;
-            flight.pager().wait_for_loads();
-            flight.pager().publish(7, flight.frame());
+            flight.receive(7);
         }
     }
 }
 
 TEST_F(NestedLodTest, EveryVertexIsAskedForAtLeastTheLevelOfItsList) {
-    Flight flight(open(), true);
+    NestedFlight flight = fly(open(), true);
     std::mt19937_64 random(3);
     for (int i = 0; i < 8; ++i) {
         const LodView view = look_from(random_stand(random, {46.5, 8.25}), 1.0, 0.1);
@@ -175,7 +152,7 @@ std::vector<testing::DrawnTriangle> seen_triangles(const Selection& selection, c
 }
 
 TEST_F(NestedLodTest, ReusedChoicesDrawTheSameSurface) {
-    Flight cached(open(), true), fresh(open(), false);
+    NestedFlight cached = fly(open(), true), fresh = fly(open(), false);
     std::mt19937_64 random(11);
     std::uint64_t reused = 0, chosen = 0, seen = 0;
     for (int walk = 0; walk < 6; ++walk) {
@@ -201,7 +178,7 @@ TEST_F(NestedLodTest, ReusedChoicesDrawTheSameSurface) {
 }
 
 TEST_F(NestedLodTest, AChoiceStandsThroughJumpsAndChangesOfTolerance) {
-    Flight cached(open(), true), fresh(open(), false);
+    NestedFlight cached = fly(open(), true), fresh = fly(open(), false);
     std::mt19937_64 random(17);
     std::uniform_real_distribution<double> unit(0.0, 1.0);
     for (int i = 0; i < 40; ++i) {
@@ -215,7 +192,7 @@ TEST_F(NestedLodTest, AChoiceStandsThroughJumpsAndChangesOfTolerance) {
 
 /// Places on the ground in view, the horizon far: each is in exactly one drawn tile.
 TEST_F(NestedLodTest, DrawnTilesCoverTheViewOnce) {
-    Flight flight(open(), true);
+    NestedFlight flight = fly(open(), true);
     std::mt19937_64 random(23);
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
     int looked_at = 0;
@@ -246,7 +223,7 @@ TEST_F(NestedLodTest, DrawnTilesCoverTheViewOnce) {
 }
 
 TEST_F(NestedLodTest, DrawsComeNearToFar) {
-    Flight flight(open(), true);
+    NestedFlight flight = fly(open(), true);
     const LodView view = look_from({.above_m = 5000.0}, 0.02);
     const Selection& selection = flight.settle(view);
     ASSERT_GE(selection.draws.size(), 20U);
@@ -261,7 +238,7 @@ TEST_F(NestedLodTest, DrawsComeNearToFar) {
 }
 
 TEST_F(NestedLodTest, ASteadyViewAllocatesNothingAndMakesNoChoice) {
-    Flight flight(open(), true, true);
+    NestedFlight flight = fly(open(), true, true);
     Stand stand{.above_m = 2000.0};
     flight.settle(look_from(stand, 0.25, 0.025));
     for (int i = 0; i < 100; ++i) {
@@ -277,11 +254,11 @@ TEST_F(NestedLodTest, ASteadyViewAllocatesNothingAndMakesNoChoice) {
 }
 
 TEST_F(NestedLodTest, AnEvictedTileIsNoticedAndStaysWholeUntilItIsBack) {
-    Flight flight(open(1), true);
+    NestedFlight flight = fly(open(1), true);
     const LodView near = look_from({.above_m = 1000.0}, 0.5), away = look_from({-30.0, -120.0, 1000.0}, 0.5);
     const auto before = seen_triangles(flight.settle(near), near);
     flight.settle(away);
-    flight.frame() += 1000;
+    flight.skip(1000);
     flight.select(away);
     flight.pager().publish(0, flight.frame());
     ASSERT_GT(flight.pager().counters().evicted, 0U);

@@ -16,7 +16,7 @@ using testing::SmallFlight;
 /// Given a mesh so fine that every post is a vertex; then every post is covered once and off by rounding
 /// alone.
 void expect_exact(const testing::AnalyticTerrain& terrain, const terrain::LodView& view) {
-    const testing::SmallPlace place(terrain);
+    const testing::AnalyticPlanet place(terrain);
     SmallFlight flight(place.database());
     const DrawnMesh mesh = flight.mesh(view);
     const PostFigures figures = flight.figures(mesh, view);
@@ -52,7 +52,7 @@ TEST(PostError, IsRoundingAloneOverThePole) {
 /// GeographicLib says of its middle.
 TEST(PostError, OfAChordIsItsSagitta) {
     const testing::AnalyticTerrain sea{.half_size_deg = 0.2, .detail_depth = 10, .amplitude_m = 0.0};
-    const testing::SmallPlace place_of_sea(sea);
+    const testing::AnalyticPlanet place_of_sea(sea);
     SmallFlight flight(place_of_sea.database());
     const auto view = look_north(46.4, 8.25, 5000.0, 45.0, 40.0);  // so coarse that posts are left out
     const MeasuredPosts posts = flight.measure(flight.mesh(view), view);

@@ -30,7 +30,7 @@ terrain::LodView look_north(double latitude_deg, double longitude_deg, double he
 }
 
 std::shared_ptr<const terrain::Database> small_hills() {
-    static const SmallPlace hills{kSmallHills};
+    static const AnalyticPlanet hills{kSmallHills};
     return hills.database();
 }
 

@@ -13,18 +13,6 @@ namespace eyepoint::testing {
 terrain::LodView look_north(double latitude_deg, double longitude_deg, double height_m, double down_deg,
                             double tau_px);
 
-/// A database of a small place, made in a folder of its own.
-class SmallPlace {
-  public:
-    explicit SmallPlace(const AnalyticTerrain& terrain)
-        : database_(make_database(terrain, scratch_.path() / "db")) {}
-    [[nodiscard]] std::shared_ptr<const terrain::Database> database() const { return database_; }
-
-  private:
-    ScratchFolder scratch_;
-    std::shared_ptr<const terrain::Database> database_;
-};
-
 /// A database with detail around a place, and the method `tile` on it.
 class SmallFlight {
   public:

@@ -1,128 +1,65 @@
 #include "terrain/lod/tile/tile_lod.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <string>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "terrain/geodesy/earth.hpp"
-#include "terrain/pager/pager.hpp"
-#include "tests/support/analytic_terrain.hpp"
-#include "tests/terrain/lod/drawn_mesh.hpp"
 #include "tests/terrain/lod/look.hpp"
+#include "tests/terrain/lod/method_flight.hpp"
+#include "tests/terrain/lod/places.hpp"
+#include "tests/terrain/lod/selection_checks.hpp"
 
 namespace eyepoint::terrain {
 namespace {
 
-using testing::AnalyticTerrain;
-using testing::find_faults;
+using testing::expect_whole;
+using testing::hills;
 using testing::look;
-using testing::MeshFaults;
-using testing::ScratchFolder;
+using testing::sea;
 
-/// Everything the view asks for, loaded; then the selection.
-class Flight {
-  public:
-    explicit Flight(const AnalyticTerrain& terrain)
-        : database_(testing::make_database(terrain, scratch_.path() / "db")),
-          pager_(std::move(Pager::create(database_, {.threads = 1, .cache_bytes = 1ULL << 30}).value())) {}
+using TileFlight = testing::MethodFlight<TileLod>;
 
-    const Selection& settle(const LodView& view) {
-        while (true) {
-            pager_->publish(100000, frame_);
-            const Selection& selection = step(view);
-            if (!pager_->wait_for_loads()) return selection;
-        }
-    }
-    const Selection& step(const LodView& view) {
-        const Selection& selection = lod_.select(view, pager_->tree(), ++frame_);
-        pager_->request(selection.wishes);
-        return selection;
-    }
-    std::size_t publish(std::size_t most) { return pager_->publish(most, frame_); }
-    bool wait() { return pager_->wait_for_loads(); }
-    MeshFaults faults(std::span<const BlockDraw> draws) const { return find_faults(draws, lod_.indices()); }
-
-  private:
-    ScratchFolder scratch_;
-    std::shared_ptr<const Database> database_;
-    std::unique_ptr<Pager> pager_;
-    TileLod lod_;
-    std::uint64_t frame_ = 0;
-};
-
-void expect_whole(const MeshFaults& faults, const std::string& where) {
-    EXPECT_GT(faults.edges, 0U) << where;
-    EXPECT_EQ(faults.cracks, 0U) << where;
-    EXPECT_EQ(faults.overlaps, 0U) << where;
-    EXPECT_EQ(faults.unequal_bits, 0U) << where;
-    EXPECT_EQ(faults.folded, 0U) << where;
+testing::MeshFaults faults_of(const TileFlight& flight, std::span<const BlockDraw> draws) {
+    return testing::find_faults(draws, flight.method().indices());
 }
 
-struct Place {
-    const char* name;
-    AnalyticTerrain terrain;
-};
-void PrintTo(const Place& place, std::ostream* stream) { *stream << place.name; }
-
-/// Over the pole itself, an eye among the hills is in the bounding boxes of all tiles that meet there,
-/// 2^(d+1) at depth d: thousands of blocks at full resolution. Above the highest hill a few hundred show the
-/// same seams.
-double clearance_m(double latitude_deg) { return latitude_deg == 90.0 ? 2000.0 : 0.0; }
-
-class TileLodAt : public ::testing::TestWithParam<Place> {};
+class TileLodAt : public ::testing::TestWithParam<testing::Place> {};
 
 TEST_P(TileLodAt, DrawnMeshHasNoCracksFromRandomEyes) {
-    const AnalyticTerrain terrain = GetParam().terrain;
-    Flight flight(terrain);
+    const testing::AnalyticPlanet& planet = GetParam().planet();
+    TileFlight flight(planet.database());
     std::mt19937_64 random(20261122);
-    std::uniform_real_distribution<double> unit(0.0, 1.0);
     for (int i = 0; i < 16; ++i) {
-        const double latitude_deg =
-            std::min(90.0, terrain.latitude_deg + (unit(random) * 2.0 - 1.0) * 1.2 * terrain.half_size_deg);
-        const double longitude_deg =
-            terrain.longitude_deg + (unit(random) * 2.0 - 1.0) * 1.2 * terrain.half_size_deg;
-        const double above_m = std::max(std::pow(10.0, 0.3 + 5.5 * unit(random)), clearance_m(latitude_deg));
-        const double ground_m = testing::analytic_height_m(terrain, latitude_deg, longitude_deg);
-        const Ecef eye = to_ecef({latitude_deg, longitude_deg, EllipsoidalHeight{ground_m + above_m}});
-        const glm::dmat3 enu = east_north_up(std::min(latitude_deg, 90.0), longitude_deg);
-        const double course = unit(random) * 6.283, down = -1.5 * unit(random) * unit(random);
-        const glm::dvec3 forward = enu * glm::dvec3{std::sin(course) * std::cos(down),
-                                                    std::cos(course) * std::cos(down), std::sin(down)};
-        const LodView view = look(eye, forward, enu * glm::dvec3{0.1, 0.05, 1.0}, 0.5 + 4.0 * unit(random));
-        const Selection& selection = flight.settle(view);
-        expect_whole(flight.faults(selection.draws),
-                     std::string(GetParam().name) + ", eye " + std::to_string(i));
+        const Selection& selection = flight.settle(testing::random_view(planet.terrain(), random));
+        expect_whole(faults_of(flight, selection.draws), "eye " + std::to_string(i));
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Earth, TileLodAt,
-    ::testing::Values(Place{"alps", {}}, Place{"equator", {.latitude_deg = 0.0, .longitude_deg = 0.0}},
-                      Place{"antimeridian", {.latitude_deg = -16.8, .longitude_deg = 180.0}},
-                      Place{"pole", {.latitude_deg = 89.7, .longitude_deg = 30.0, .detail_depth = 8}}),
-    [](const auto& place) { return std::string(place.param.name); });
+INSTANTIATE_TEST_SUITE_P(Earth, TileLodAt, ::testing::ValuesIn(testing::places()), testing::place_name);
 
 TEST(TileLod, HasNoCracksWhileBlocksAreStillArriving) {
-    Flight flight({});
+    TileFlight flight(hills().database());
     const Ecef eye = to_ecef({46.5, 8.25, EllipsoidalHeight{2500.0}});
     const glm::dmat3 enu = east_north_up(46.5, 8.25);
     const LodView view = look(eye, enu * glm::dvec3{0.3, 1.0, -0.2}, enu[2], 1.0);
     std::uint64_t triangles = 0;
     for (int frame = 0; frame < 400; ++frame) {
         const Selection& selection = flight.step(view);
-        expect_whole(flight.faults(selection.draws), "frame " + std::to_string(frame));
+        expect_whole(faults_of(flight, selection.draws), "frame " + std::to_string(frame));
         triangles = std::max(triangles, selection.triangles);
         if (selection.wishes.empty()) break;
-        flight.wait();
-        flight.publish(3);
+        flight.receive(3);
     }
     EXPECT_GT(triangles, 2000U);
 }
 
 TEST(TileLod, ABlockDrawnCoarserThanItsNeighboursKnowIsCountedAsCracks) {
-    Flight flight({});
+    TileFlight flight(hills().database());
     const Ecef eye = to_ecef({46.5, 8.25, EllipsoidalHeight{2500.0}});
     const glm::dmat3 enu = east_north_up(46.5, 8.25);
     const Selection& selection = flight.settle(look(eye, enu * glm::dvec3{0.3, 1.0, -0.2}, enu[2], 1.0));
@@ -132,11 +69,11 @@ TEST(TileLod, ABlockDrawnCoarserThanItsNeighboursKnowIsCountedAsCracks) {
     const tiles::Division division = tiles::division(33);
     ASSERT_LT(level, division.levels - 1);
     draws[1].indices = tiles::TileMeshes{division}.range(0, level + 1, 0);
-    EXPECT_GT(flight.faults(draws).cracks, 0U);
+    EXPECT_GT(faults_of(flight, draws).cracks, 0U);
 }
 
 TEST(TileLod, ASmallerToleranceDrawsMore) {
-    Flight flight({});
+    TileFlight flight(hills().database());
     const Ecef eye = to_ecef({46.5, 8.25, EllipsoidalHeight{3000.0}});
     const glm::dmat3 enu = east_north_up(46.5, 8.25);
     std::uint64_t before = 0;
@@ -149,7 +86,7 @@ TEST(TileLod, ASmallerToleranceDrawsMore) {
 }
 
 TEST(TileLod, EveryDrawnBlockIsFineEnoughOnceLoaded) {
-    Flight flight({});
+    TileFlight flight(hills().database());
     const Ecef eye = to_ecef({46.5, 8.25, EllipsoidalHeight{3000.0}});
     const glm::dmat3 enu = east_north_up(46.5, 8.25);
     const LodView view = look(eye, enu * glm::dvec3{0.0, 1.0, -0.15}, enu[2], 1.0);
@@ -162,10 +99,10 @@ TEST(TileLod, EveryDrawnBlockIsFineEnoughOnceLoaded) {
 }
 
 TEST(TileLod, FromSpaceTheWholeVisibleHemisphereIsDrawn) {
-    Flight flight({.amplitude_m = 0.0});
+    TileFlight flight(sea().database());
     const Ecef eye{3.0e7, 0.0, 0.0};
     const Selection& selection = flight.settle(look(eye, {-1.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, 1.0));
-    expect_whole(flight.faults(selection.draws), "space");
+    expect_whole(faults_of(flight, selection.draws), "space");
     EXPECT_EQ(selection.draws.size(), 2U) << "both roots, the far side hidden inside them";
 }
 
@@ -191,7 +128,7 @@ bool any_part_drawn(const Selection& selection, TileId tile) {
 }
 
 TEST(TileLod, WhereDrawingEndsAtTheHorizonTheDrawnMeshItselfHidesTheEnd) {
-    Flight flight({.amplitude_m = 0.0});
+    TileFlight flight(sea().database());
     for (const double height_m : {50.0, 3000.0, 12000.0}) {
         const Ecef eye = to_ecef({10.0, 50.0, EllipsoidalHeight{height_m}});
         const glm::dmat3 enu = east_north_up(10.0, 50.0);
