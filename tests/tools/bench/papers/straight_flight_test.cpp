@@ -1,6 +1,7 @@
 #include "tools/bench/papers/straight_flight.hpp"
 
 #include <cstdio>
+#include <memory>
 #include <sstream>
 #include <vector>
 
@@ -11,6 +12,7 @@
 namespace eyepoint::tools {
 namespace {
 
+using eyepoint::testing::AnalyticPlanet;
 using eyepoint::testing::AnalyticTerrain;
 
 struct Fix {
@@ -34,10 +36,17 @@ std::vector<Fix> fixes(const std::string& track) {
 
 class StraightFlightOver : public ::testing::Test {
   protected:
-    AnalyticTerrain terrain_;
-    eyepoint::testing::ScratchFolder scratch_;
-    std::shared_ptr<const terrain::Database> database_ =
-        eyepoint::testing::make_database(terrain_, scratch_.path() / "db");
+    static void SetUpTestSuite() {
+        planet_ = std::make_unique<AnalyticPlanet>(AnalyticTerrain{.half_size_deg = 0.05});
+        database_ = planet_->database();
+    }
+    static void TearDownTestSuite() {
+        database_.reset();
+        planet_.reset();
+    }
+
+    static inline std::unique_ptr<AnalyticPlanet> planet_;
+    static inline std::shared_ptr<const terrain::Database> database_;
 };
 
 TEST_F(StraightFlightOver, GoesNorthAtItsSpeedThroughTheMiddleOfTheDetail) {
@@ -62,9 +71,10 @@ TEST_F(StraightFlightOver, FixesAreSoHighAboveTheGroundThere) {
     ASSERT_TRUE(track) << track.error();
     for (const Fix& fix : fixes(*track)) {
         // The database's posts are hills' heights to its height step, and flat between.
-        EXPECT_NEAR(fix.altitude_m - 700.0,
-                    eyepoint::testing::analytic_height_m(terrain_, fix.latitude_deg, fix.longitude_deg),
-                    20.0);
+        EXPECT_NEAR(
+            fix.altitude_m - 700.0,
+            eyepoint::testing::analytic_height_m(planet_->terrain(), fix.latitude_deg, fix.longitude_deg),
+            20.0);
     }
 }
 
