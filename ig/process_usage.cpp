@@ -2,8 +2,7 @@
 
 #include <ctime>
 #include <fstream>
-
-#include <sys/resource.h>
+#include <string>
 
 #include <unistd.h>
 
@@ -29,10 +28,14 @@ std::uint64_t resident_bytes() {
     return resident_pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
 }
 
+// Not getrusage(): its figure starts at that of the process that called exec().
 std::uint64_t peak_resident_bytes() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+    std::ifstream status("/proc/self/status");
+    for (std::string word; status >> word;) {
+        std::uint64_t kib = 0;
+        if (word == "VmHWM:" && status >> kib) return kib * 1024;
+    }
+    return 0;
 }
 
 }  // namespace eyepoint::ig

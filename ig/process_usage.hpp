@@ -11,7 +11,7 @@ namespace eyepoint::ig {
 [[nodiscard]] double thread_cpu_ms();
 /// Resident memory now, bytes; 0 where the system does not say.
 [[nodiscard]] std::uint64_t resident_bytes();
-/// Largest resident memory so far, bytes.
+/// Largest resident memory of this program so far, bytes; 0 where the system does not say.
 [[nodiscard]] std::uint64_t peak_resident_bytes();
 
 }  // namespace eyepoint::ig

@@ -166,6 +166,7 @@ tl::expected<BenchResult, std::string> run_bench(const BenchOptions& options,
     if (!context) return tl::unexpected(context.error());
     auto frame_buffer = ig::FrameBuffer::create(options.size);
     if (!frame_buffer) return tl::unexpected(frame_buffer.error());
+    const std::uint64_t bare_bytes = ig::resident_bytes();
     auto scene = make_scene(options, outputs->tracks, shared);
     if (!scene) return tl::unexpected(scene.error());
 
@@ -179,7 +180,7 @@ tl::expected<BenchResult, std::string> run_bench(const BenchOptions& options,
     (*scene)->load_all(eyes.front().eyepoint.view);
     (*scene)->warm_up(eyes.front().eyepoint.view);
     (void)ig::wait_for_gpu();
-    BenchResult result{context->identity(), {}, shared->manifest().name, {}, 0.0, 0, {}};
+    BenchResult result{context->identity(), {}, shared->manifest().name, {}, 0.0, bare_bytes, 0, {}};
     result.frames.reserve(eyes.size());
     FrameBench bench{options, outputs->tracks, **scene, *frame_buffer};
     for (const ig::FlightEye& eye : eyes) {

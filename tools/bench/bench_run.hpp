@@ -58,6 +58,7 @@ struct BenchResult {
     std::string terrain_name;
     std::vector<BenchFrame> frames;
     double wall_s = 0.0;  ///< of drawing alone, loads and pictures left out
+    std::uint64_t bare_resident_bytes = 0;  ///< with an OpenGL context and a picture, before any terrain
     std::uint64_t peak_resident_bytes = 0;
     ReadbackTimes readback;  ///< of the last frame
 };

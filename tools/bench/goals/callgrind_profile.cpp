@@ -28,25 +28,43 @@ bool is_cost(const std::string& line) {
                              line.front() == '+' || line.front() == '-' || line.front() == '*');
 }
 
-}  // namespace
-
-std::map<std::string, std::uint64_t> instructions_by_function(std::istream& profile) {
-    std::map<std::string, std::uint64_t> instructions;
+/// Calls visit(function, callee, instructions): callee is nullptr where they are the function's own.
+template <typename Visit>
+void for_each_cost(std::istream& profile, const Visit& visit) {
     Names names;
-    std::string function;
-    bool callees = false;
+    std::string function, callee;
+    bool of_callee = false;
     for (std::string line; std::getline(profile, line);) {
         if (line.starts_with("fn=")) {
             function = names.of(line.substr(3));
         } else if (line.starts_with("cfn=")) {
-            (void)names.of(line.substr(4));
+            callee = names.of(line.substr(4));
         } else if (line.starts_with("calls=")) {
-            callees = true;
+            of_callee = true;
         } else if (is_cost(line) && line.find(' ') != std::string::npos) {
-            if (!callees) instructions[function] += std::strtoull(line.c_str() + line.find(' '), nullptr, 10);
-            callees = false;
+            const std::uint64_t cost = std::strtoull(line.c_str() + line.find(' '), nullptr, 10);
+            visit(function, of_callee ? &callee : nullptr, cost);
+            of_callee = false;
         }
     }
+}
+
+}  // namespace
+
+std::map<std::string, std::uint64_t> instructions_by_function(std::istream& profile) {
+    std::map<std::string, std::uint64_t> instructions;
+    for_each_cost(profile, [&](const std::string& function, const std::string* callee, std::uint64_t cost) {
+        if (callee == nullptr) instructions[function] += cost;
+    });
+    return instructions;
+}
+
+std::uint64_t instructions_of_calls(std::istream& profile, std::string_view name) {
+    const auto named = [&](const std::string& function) { return function.find(name) != std::string::npos; };
+    std::uint64_t instructions = 0;
+    for_each_cost(profile, [&](const std::string& function, const std::string* callee, std::uint64_t cost) {
+        if (callee != nullptr && named(*callee) && !named(function)) instructions += cost;
+    });
     return instructions;
 }
 

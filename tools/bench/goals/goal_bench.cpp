@@ -31,6 +31,13 @@ std::vector<ig::FlightEye> looking_down(std::vector<ig::FlightEye> eyes, double 
     return eyes;
 }
 
+std::vector<terrain::LodView> views_of(const std::vector<ig::FlightEye>& eyes, double tau_px,
+                                       double slack_px) {
+    std::vector<terrain::LodView> views;
+    for (const ig::FlightEye& eye : eyes) views.push_back(ig::lod_view(eye.eyepoint.view, tau_px, slack_px));
+    return views;
+}
+
 }  // namespace
 
 std::vector<ig::FlightEye> every_nth(const std::vector<ig::FlightEye>& eyes, std::size_t n) {
@@ -75,10 +82,18 @@ tl::expected<FlightFigures, std::string> GoalBench::fly(const std::vector<ig::Fl
                                                         const MeasureOptions& options) {
     const auto flown = flight(how.lod_method, how.cull);
     if (!flown) return tl::unexpected(flown.error());
-    std::vector<terrain::LodView> views;
-    for (const ig::FlightEye& eye : eyes)
-        views.push_back(ig::lod_view(eye.eyepoint.view, how.tau_px, how.slack_share * how.tau_px));
-    const auto frames = measure_flight(**flown, surface_, views, options);
+    const auto frames =
+        measure_flight(**flown, surface_, views_of(eyes, how.tau_px, how.slack_share * how.tau_px), options);
+    if (!frames) return tl::unexpected(frames.error());
+    return summarise(*frames);
+}
+
+tl::expected<FlightFigures, std::string> GoalBench::fly_anew(const std::vector<ig::FlightEye>& eyes,
+                                                             const FlightOptions& flight, double tau_px,
+                                                             double slack_px, const MeasureOptions& options) {
+    const auto flown = LodFlight::create(field_, flight);
+    if (!flown) return tl::unexpected(flown.error());
+    const auto frames = measure_flight(**flown, surface_, views_of(eyes, tau_px, slack_px), options);
     if (!frames) return tl::unexpected(frames.error());
     return summarise(*frames);
 }
@@ -89,10 +104,8 @@ tl::expected<ToleranceMatch, std::string> GoalBench::match(const std::string& lo
     if (const auto found = matches_.find(key); found != matches_.end()) return found->second;
     const auto flown = flight(lod_method, false);
     if (!flown) return tl::unexpected(flown.error());
-    std::vector<terrain::LodView> views;
-    for (const ig::FlightEye& eye : every_nth(path, settings_.every))
-        views.push_back(ig::lod_view(eye.eyepoint.view, 1.0, 0.0));
-    auto found = match_p999(**flown, surface_, views, kComparedP999Px, 0.0, MeasureOptions{});
+    auto found = match_p999(**flown, surface_, views_of(every_nth(path, settings_.every), 1.0, 0.0),
+                            kComparedP999Px, 0.0, MeasureOptions{});
     if (found) matches_.emplace(key, *found);
     return found;
 }

@@ -69,6 +69,11 @@ class GoalBench {
     [[nodiscard]] tl::expected<FlightFigures, std::string> fly(const std::vector<ig::FlightEye>& eyes,
                                                                const GoalFlight& flight,
                                                                const MeasureOptions& options);
+    /// The same by a method with options, loaded for this and gone after it; slack in pixels.
+    [[nodiscard]] tl::expected<FlightFigures, std::string> fly_anew(const std::vector<ig::FlightEye>& eyes,
+                                                                    const FlightOptions& flight,
+                                                                    double tau_px, double slack_px,
+                                                                    const MeasureOptions& options);
     /// The tolerance at which the post error of a path of paths() is kComparedP999Px, over every so-manieth
     /// frame (GoalSettings::every), without slack; looked for once a method and path. On failure: one
     /// sentence.

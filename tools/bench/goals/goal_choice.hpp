@@ -32,6 +32,10 @@ inline constexpr std::array kGoalSubjects{
     GoalSubject{13, "CPU of an idle program"},
     GoalSubject{14, "tolerance control"},
     GoalSubject{15, "transport delay"},
+    GoalSubject{16, "selective: what its cache saves and misses"},
+    GoalSubject{17, "bintree: memory, and blocks in time"},
+    GoalSubject{18, "hyperblock: against its twin by vertex, and at all tolerances"},
+    GoalSubject{19, "the default against the published methods"},
 };
 
 /// Numbers of goals.

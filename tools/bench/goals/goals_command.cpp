@@ -8,14 +8,18 @@
 
 #include "tools/bench/allocation_count.hpp"
 #include "tools/bench/command_options.hpp"
+#include "tools/bench/goals/bintree_goals.hpp"
 #include "tools/bench/goals/block_goals.hpp"
 #include "tools/bench/goals/control_goals.hpp"
 #include "tools/bench/goals/culling_goals.hpp"
+#include "tools/bench/goals/default_goals.hpp"
 #include "tools/bench/goals/drawing_goals.hpp"
 #include "tools/bench/goals/frame_goals.hpp"
+#include "tools/bench/goals/hyperblock_goals.hpp"
 #include "tools/bench/goals/mesh_goals.hpp"
 #include "tools/bench/goals/program_goals.hpp"
 #include "tools/bench/goals/selection_goals.hpp"
+#include "tools/bench/goals/selective_goals.hpp"
 #include "tools/report/page.hpp"
 
 namespace eyepoint::tools {
@@ -54,6 +58,13 @@ const std::array kSteps{
     Step{{13}, "running eyepoint with an eye that stands still", measure_idle},
     Step{{14}, "flying sweep under tolerance control, four times", measure_control},
     Step{{15}, "running eyepoint at 60 Hz", measure_delay},
+    Step{{16}, "selecting along cruise by selective, with cache and without", measure_selective},
+    Step{{16}, "counting instructions of selective with valgrind", measure_generation},
+    Step{{17}, "drawing cruise by bintree while its blocks arrive", measure_bintree},
+    Step{{18},
+         "drawing cruise by turns by hyperblock and by its twin, selecting at five tolerances",
+         measure_hyperblock},
+    Step{{19}, "drawing cruise by turns by all methods at equal post error", measure_default},
 };
 
 GoalChoice chosen_by(const GoalsRequest& request) {

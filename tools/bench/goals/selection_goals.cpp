@@ -2,22 +2,19 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
-#include <fstream>
+#include <sstream>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "tools/bench/goals/callgrind_profile.hpp"
-#include "tools/bench/goals/scratch_folder.hpp"
-#include "tools/process/child_process.hpp"
+#include "tools/bench/goals/profiled_flight.hpp"
 
 namespace eyepoint::tools {
 
 namespace {
 
 /// Of cruise, under callgrind: enough for blocks to change in them, few enough to load in a minute.
-constexpr int kCountedFrames = 60;
+constexpr std::size_t kCountedFrames = 60;
 
 /// Instructions and blocks of a flight's selections.
 struct CountedFlight {
@@ -32,44 +29,17 @@ bool cuts(const std::string& function) {
 }
 
 tl::expected<CountedFlight, std::string> count_instructions(const GoalBench& bench) {
-    const auto scratch = ScratchFolder::create();
-    if (!scratch) return tl::unexpected(scratch.error());
-    const auto json_file = scratch->path() / "flight.json", profile_file = scratch->path() / "profile";
-    const GoalSettings& settings = bench.settings();
-    auto child = ChildProcess::start({"valgrind",
-                                      "--tool=callgrind",
-                                      "--collect-atstart=no",
-                                      "--toggle-collect=*LodFlight::choose*",
-                                      "--callgrind-out-file=" + profile_file.string(),
-                                      (settings.programs / "eyepoint-bench").string(),
-                                      "measure",
-                                      (settings.paths / "cruise.csv").string(),
-                                      "--terrain",
-                                      settings.terrain.string(),
-                                      "--lod",
-                                      settings.lod_method,
-                                      "--tau",
-                                      "1",
-                                      "--slack",
-                                      fmt::format("{}", kSlackShare),
-                                      "--frames",
-                                      std::to_string(kCountedFrames),
-                                      "--selection-only",
-                                      "--json",
-                                      json_file.string()});
-    if (!child) return tl::unexpected(child.error());
-    constexpr std::chrono::seconds kPatience{1200};
-    const Ending ending = child->wait(kPatience);
-    const auto json = nlohmann::json::parse(std::ifstream(json_file), nullptr, false);
-    if (ending.exit_code != 0 || json.is_discarded())
-        return tl::unexpected(std::string("valgrind cannot run this program"));
+    const auto flown = profile_selection(
+        bench, kCountedFrames,
+        {"--lod", bench.settings().lod_method, "--tau", "1", "--slack", fmt::format("{}", kSlackShare)});
+    if (!flown) return tl::unexpected(flown.error());
     CountedFlight counted;
-    std::ifstream profile(profile_file);
+    std::istringstream profile(flown->profile);
     for (const auto& [function, instructions] : instructions_by_function(profile))
         (cuts(function) ? counted.cutting : counted.choosing) += instructions;
     if (counted.choosing == 0)
         return tl::unexpected(std::string("valgrind does not find selection by its name"));
-    for (const auto& frame : json["frames"]) counted.blocks_tested += frame["blocks_tested"].get<double>();
+    for (const auto& frame : flown->frames) counted.blocks_tested += frame["blocks_tested"].get<double>();
     return counted;
 }
 

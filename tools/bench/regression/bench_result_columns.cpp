@@ -78,6 +78,7 @@ FlightResult flight_result(const BenchResult& bench, FlightIdentity identity) {
     add_still(bench, result);
     result.figures = {{"readback_ms", bench.readback.read_ms},
                       {"copy_ms", bench.readback.copy_ms},
+                      {"bare_resident_bytes", number(bench.bare_resident_bytes)},
                       {"peak_resident_bytes", number(bench.peak_resident_bytes)}};
     for (const BenchFrame& frame : bench.frames)
         if (frame.picture_hash) result.picture_hashes.push_back(fmt::format("{:016x}", *frame.picture_hash));

@@ -14,9 +14,9 @@ using ::testing::HasSubstr;
 
 TEST(GoalChoice, WithoutAWordIsAllGoals) {
     const GoalChoice all;
-    for (int goal = 1; goal <= 15; ++goal) EXPECT_TRUE(all.has(goal)) << goal;
+    for (int goal = 1; goal <= 19; ++goal) EXPECT_TRUE(all.has(goal)) << goal;
     EXPECT_FALSE(all.has(0));
-    EXPECT_FALSE(all.has(16));
+    EXPECT_FALSE(all.has(20));
 }
 
 TEST(GoalChoice, NamedGoalsAreChosenAndNoOthers) {
@@ -30,10 +30,10 @@ TEST(GoalChoice, NamedGoalsAreChosenAndNoOthers) {
 }
 
 TEST(GoalChoice, WhatIsNoGoalIsNamed) {
-    for (const char* text : {"0", "16", "three", "3,,8", "3;8", "-1", " 3", "99999999999"}) {
+    for (const char* text : {"0", "20", "three", "3,,8", "3;8", "-1", " 3", "99999999999"}) {
         const auto chosen = GoalChoice::parse(text);
         ASSERT_FALSE(chosen.has_value()) << text;
-        EXPECT_THAT(chosen.error(), HasSubstr("is no goal; goals are 1 to 15")) << text;
+        EXPECT_THAT(chosen.error(), HasSubstr("is no goal; goals are 1 to 19")) << text;
     }
     EXPECT_FALSE(GoalChoice::parse("").has_value());
 }

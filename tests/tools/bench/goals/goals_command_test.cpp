@@ -78,7 +78,7 @@ TEST_F(GoalsCommand, AGoalThatIsNoneIsOneClearLine) {
     const auto ending = run({"--only", "3,x"});
     EXPECT_EQ(ending.exit_code, 1);
     EXPECT_EQ(ending.standard_error,
-              "eyepoint-bench: --only: 'x' is no goal; goals are 1 to 15, written as 3,8\n");
+              "eyepoint-bench: --only: 'x' is no goal; goals are 1 to 19, written as 3,8\n");
 }
 
 }  // namespace
