@@ -14,8 +14,6 @@ using tiles::TiledBlock;
 
 namespace {
 
-/// Blocks that are not drawn are remembered so long, and looked for so often.
-constexpr std::uint64_t kRememberedFrames = 120, kForgetEvery = 32;
 constexpr std::size_t kResolutions = kMaxDepth + Tile::kBlockHalvings + 1;
 
 }  // namespace
@@ -38,7 +36,7 @@ const Selection& TileLod::select(const LodView& view, TileTree& tree, std::uint6
     want(view);
     morph();
     emit();
-    if (frame % kForgetEvery == 0) drop_unused();
+    if (frame % kDropEvery == 0) drop_unused();
     return selection_;
 }
 
@@ -56,8 +54,8 @@ TiledBlock& TileLod::block_of(TileNode& node) {
 }
 
 void TileLod::drop_unused() {
-    std::erase_if(
-        blocks_, [&](const auto& entry) { return entry.second->touched_frame + kRememberedFrames < frame_; });
+    std::erase_if(blocks_,
+                  [&](const auto& entry) { return entry.second->touched_frame + kHeldFrames < frame_; });
 }
 
 Tile* TileLod::tile_in(TiledBlock& block, TileId place) const {
