@@ -18,4 +18,11 @@ float twist_m(const BlockData& data) {
     return greatest;
 }
 
+float Twists::of_m(const TileNode& node) {
+    if (!node.info.has_children) return 0.0F;
+    const auto [known, fresh] = known_m_.try_emplace(node.tile, 0.0F);
+    if (fresh) known->second = twist_m(node.block->data);
+    return known->second;
+}
+
 }  // namespace eyepoint::terrain

@@ -6,7 +6,6 @@
 
 #include "terrain/lod/hyperblock/eye_in_tile.hpp"
 #include "terrain/lod/selective/block_posts.hpp"
-#include "terrain/lod/twist.hpp"
 
 namespace eyepoint::terrain {
 
@@ -54,16 +53,8 @@ const Selection& HyperblockLod::select(const LodView& view, TileTree& tree, std:
     return selection_;
 }
 
-/// Nothing is drawn finer than tiles without children: their posts are the surface itself.
-float HyperblockLod::twist_m(const TileNode& node) {
-    if (!node.info.has_children) return 0.0F;
-    const auto [known, fresh] = twists_m_.try_emplace(node.tile, 0.0F);
-    if (fresh) known->second = terrain::twist_m(node.block->data);
-    return known->second;
-}
-
 double HyperblockLod::excess_m(const TileNode& node) {
-    return twist_m(node) + hyperblock::point_tolerance(node.tile, node.info).surface_m;
+    return twists_.of_m(node) + hyperblock::point_tolerance(node.tile, node.info).surface_m;
 }
 
 /// The cut's leaves, near to far.
@@ -87,7 +78,7 @@ std::unique_ptr<HyperblockLod::Held> HyperblockLod::hold(TileNode& node) {
     auto tile = std::make_unique<Held>();
     tile->node = &node;
     tile->blocks.tile = node.tile;
-    const float unseen_m = node.info.delta_m[0] + twist_m(node);
+    const float unseen_m = node.info.delta_m[0] + twists_.of_m(node);
     const selective::BlockPosts posts = selective::block_posts(*node.block, unseen_m);
     tile->origin = posts.origin;
     tile->points = hyperblock::point_set(posts, unseen_m, hyperblock::point_tolerance(node.tile, node.info));

@@ -16,6 +16,7 @@
 #include "terrain/lod/lod_method.hpp"
 #include "terrain/lod/selective/dike.hpp"
 #include "terrain/lod/tile_cut.hpp"
+#include "terrain/lod/twist.hpp"
 
 namespace eyepoint::terrain {
 
@@ -63,7 +64,6 @@ class HyperblockLod final : public LodMethod {
     void collect(std::uint64_t frame);
     void link_neighbours();
     [[nodiscard]] std::unique_ptr<Held> hold(TileNode& node);
-    [[nodiscard]] float twist_m(const TileNode& node);
     void select_by_block(const LodView& view);
     void put_together(Held& tile);
     void select_by_vertex(const LodView& view);
@@ -71,9 +71,9 @@ class HyperblockLod final : public LodMethod {
     void emit();
 
     hyperblock::Options options_;
+    Twists twists_;
     TileCut cut_;
     std::unordered_map<TileId, std::unique_ptr<Held>, TileHash> tiles_;
-    std::unordered_map<TileId, float, TileHash> twists_m_;
     std::vector<Held*> drawn_;  ///< near to far; a leaf's LodMark::draw is its place
     std::vector<hyperblock::TileBlocks*> drawn_blocks_;
     hyperblock::LevelAdjustment adjustment_;

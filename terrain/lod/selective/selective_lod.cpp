@@ -8,7 +8,6 @@
 
 #include "terrain/lod/selective/dike.hpp"
 #include "terrain/lod/selective/screen_error.hpp"
-#include "terrain/lod/twist.hpp"
 
 namespace eyepoint::terrain {
 
@@ -42,14 +41,6 @@ const Selection& SelectiveLod::select(const LodView& view, TileTree& tree, std::
     return selection_;
 }
 
-/// Nothing is drawn finer than tiles without children: their posts are the surface itself.
-float SelectiveLod::twist_m(const TileNode& node) {
-    if (!node.info.has_children) return 0.0F;
-    const auto [known, fresh] = twists_m_.try_emplace(node.tile, 0.0F);
-    if (fresh) known->second = terrain::twist_m(node.block->data);
-    return known->second;
-}
-
 /// The cut's leaves, near to far.
 void SelectiveLod::collect(std::uint64_t frame) {
     if (frame % kDropEvery == 0) drop_unused(frame);
@@ -72,7 +63,7 @@ void SelectiveLod::drop_unused(std::uint64_t frame) {
 std::unique_ptr<SelectiveLod::Held> SelectiveLod::hold(TileNode& node) {
     auto block = std::make_unique<Held>();
     block->node = &node;
-    block->posts = selective::block_posts(*node.block, node.info.delta_m[0] + twist_m(node));
+    block->posts = selective::block_posts(*node.block, node.info.delta_m[0] + twists_.of_m(node));
     block->corners = {corner(*node.block, 0, 0), corner(*node.block, 0, kBlockCells),
                       corner(*node.block, kBlockCells, 0), corner(*node.block, kBlockCells, kBlockCells)};
     return block;

@@ -17,6 +17,7 @@
 #include "terrain/lod/selective/lod_cache.hpp"
 #include "terrain/lod/selective/selective_options.hpp"
 #include "terrain/lod/tile_cut.hpp"
+#include "terrain/lod/twist.hpp"
 
 namespace eyepoint::terrain {
 
@@ -40,7 +41,7 @@ struct SelectionAudit {
 class SelectiveLod final : public LodMethod {
   public:
     explicit SelectiveLod(const selective::Options& options = {})
-        : options_(options), cut_([this](const TileNode& node) { return twist_m(node); }) {}
+        : options_(options), cut_([this](const TileNode& node) { return twists_.of_m(node); }) {}
 
     [[nodiscard]] std::string_view name() const override { return "selective"; }
     [[nodiscard]] MeshKind mesh_kind() const override { return MeshKind::Grid; }
@@ -64,7 +65,6 @@ class SelectiveLod final : public LodMethod {
         BlockMesh mesh;
     };
 
-    [[nodiscard]] float twist_m(const TileNode& node);
     void collect(std::uint64_t frame);
     void drop_unused(std::uint64_t frame);
     [[nodiscard]] std::unique_ptr<Held> hold(TileNode& node);
@@ -76,9 +76,9 @@ class SelectiveLod final : public LodMethod {
     void emit();
 
     selective::Options options_;
+    Twists twists_;
     TileCut cut_;
     std::unordered_map<TileId, std::unique_ptr<Held>, TileHash> blocks_;
-    std::unordered_map<TileId, float, TileHash> twists_m_;
     std::vector<Held*> drawn_;  ///< near to far; a leaf's LodMark::draw is its place
     selective::TestedPosts tested_;
     Ecef eye_{0.0};
