@@ -1,7 +1,9 @@
 /// Which tiles to draw for a view: the leaves of a cut through the quadtree, for methods that draw grids.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -82,6 +84,16 @@ class TileCut {
     std::vector<BlockRequest> wishes_;
     std::uint32_t tested_ = 0;
 };
+
+/// Orders what a method keeps of the leaves of a cut near to far, and numbers the leaves so (LodMark::draw).
+/// Kept: has a pointer to its TileNode, `node`.
+template <class Kept>
+void number_near_to_far(std::vector<Kept*>& drawn) {
+    std::sort(drawn.begin(), drawn.end(), [](const Kept* a, const Kept* b) {
+        return a->node->mark.distance_m < b->node->mark.distance_m;
+    });
+    for (std::size_t i = 0; i < drawn.size(); ++i) drawn[i]->node->mark.draw = static_cast<std::uint32_t>(i);
+}
 
 /// How far, in pixels, the drawn horizon of a bare Earth may lie from the true one, for the mesh's part.
 inline constexpr double kHorizonPx = 0.45;

@@ -69,9 +69,7 @@ void HyperblockLod::collect(std::uint64_t frame) {
         tile->used_frame = frame;
         drawn_.push_back(tile.get());
     }
-    std::sort(drawn_.begin(), drawn_.end(), [](const Held* a, const Held* b) {
-        return a->node->mark.distance_m < b->node->mark.distance_m;
-    });
+    number_near_to_far(drawn_);
 }
 
 std::unique_ptr<HyperblockLod::Held> HyperblockLod::hold(TileNode& node) {
@@ -95,10 +93,7 @@ std::unique_ptr<HyperblockLod::Held> HyperblockLod::hold(TileNode& node) {
 
 void HyperblockLod::link_neighbours() {
     drawn_blocks_.clear();
-    for (std::size_t i = 0; i < drawn_.size(); ++i) {
-        drawn_[i]->node->mark.draw = static_cast<std::uint32_t>(i);
-        drawn_blocks_.push_back(&drawn_[i]->blocks);
-    }
+    for (Held* tile : drawn_) drawn_blocks_.push_back(&tile->blocks);
     for (Held* tile : drawn_) {
         for (std::size_t edge = 0; edge < kEdges.size(); ++edge) {
             const auto leaves = cut_.across(*tile->node, kEdges[edge]);

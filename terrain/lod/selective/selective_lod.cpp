@@ -51,9 +51,7 @@ void SelectiveLod::collect(std::uint64_t frame) {
         block->used_frame = frame;
         drawn_.push_back(block.get());
     }
-    std::sort(drawn_.begin(), drawn_.end(), [](const Held* a, const Held* b) {
-        return a->node->mark.distance_m < b->node->mark.distance_m;
-    });
+    number_near_to_far(drawn_);
 }
 
 void SelectiveLod::drop_unused(std::uint64_t frame) {
@@ -98,8 +96,6 @@ void SelectiveLod::select_anew(Held& block, const LodView& view) {
 }
 
 void SelectiveLod::make_dikes() {
-    for (std::size_t i = 0; i < drawn_.size(); ++i)
-        drawn_[i]->node->mark.draw = static_cast<std::uint32_t>(i);
     for (Held* block : drawn_) {
         const TileNode& node = *block->node;
         const selective::FarSides far = selective::far_sides(

@@ -113,13 +113,8 @@ void TileLod::collect(const LodView& view) {
     drawn_.clear();
     tiles_.clear();
     for (TileNode* node : cut_.leaves()) drawn_.push_back(&block_of(*node));
-    std::sort(drawn_.begin(), drawn_.end(), [](const TiledBlock* a, const TiledBlock* b) {
-        return a->node->mark.distance_m < b->node->mark.distance_m;
-    });
-    for (std::size_t i = 0; i < drawn_.size(); ++i) {
-        drawn_[i]->node->mark.draw = static_cast<std::uint32_t>(i);
-        begin(*drawn_[i], view);
-    }
+    number_near_to_far(drawn_);
+    for (TiledBlock* block : drawn_) begin(*block, view);
 }
 
 void TileLod::begin(TiledBlock& block, const LodView& view) {
