@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -83,6 +84,13 @@ struct BlockDraw {
     const BlockMesh* mesh = nullptr;
     TileSlide slide{};  ///< where LodMethod::sliding_parts() is not 0
 };
+
+/// BlockDraw::level of a list made for a block, by its triangles: 0 with all posts, 1 more for every halving,
+/// so that the fewer triangles, the higher the level, as with other methods.
+[[nodiscard]] inline std::uint8_t shown_level(std::uint32_t triangles) {
+    constexpr auto kAllPosts = static_cast<unsigned>(2 * kBlockCells * kBlockCells);
+    return static_cast<std::uint8_t>(std::bit_width(kAllPosts) - std::bit_width(triangles));
+}
 
 /// What to draw, near to far, and what to load. Meshes of neighbouring draws meet without cracks.
 struct Selection {

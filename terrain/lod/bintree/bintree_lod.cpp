@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -271,9 +270,7 @@ void BintreeLod::emit() {
             mesh.version = ++version_;
         }
         const auto count = static_cast<std::uint32_t>(mesh.indices.size());
-        // The fewer triangles, the higher the level, as with other methods.
-        const auto level = static_cast<std::uint8_t>(kFinestLevel + 2 - std::bit_width(count / 3));
-        selection_.draws.push_back({blocks_[number].node, {0, count}, level, {}, &mesh});
+        selection_.draws.push_back({blocks_[number].node, {0, count}, shown_level(count / 3), {}, &mesh});
         selection_.triangles += count / 3;
     }
 }

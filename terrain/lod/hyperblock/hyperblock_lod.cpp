@@ -1,7 +1,6 @@
 #include "terrain/lod/hyperblock/hyperblock_lod.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
 
 #include "terrain/lod/hyperblock/eye_in_tile.hpp"
@@ -171,9 +170,7 @@ void HyperblockLod::emit() {
         ++(tile->changed ? selection_.blocks_chosen : selection_.blocks_reused);
         const auto count = static_cast<std::uint32_t>(tile->mesh.indices.size());
         if (count == 0) continue;  // its box is in view, none of its blocks is
-        // The fewer triangles, the higher the level, as with other methods.
-        const auto level = static_cast<std::uint8_t>(selective::kLevels + 1 - std::bit_width(count / 3));
-        selection_.draws.push_back({tile->node, {0, count}, level, {}, &tile->mesh});
+        selection_.draws.push_back({tile->node, {0, count}, shown_level(count / 3), {}, &tile->mesh});
         selection_.triangles += count / 3;
     }
 }

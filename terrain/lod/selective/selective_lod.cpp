@@ -1,7 +1,6 @@
 #include "terrain/lod/selective/selective_lod.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
 
 #include <glm/geometric.hpp>
@@ -116,9 +115,7 @@ void SelectiveLod::emit() {
     selection_.blocks_tested = cut_.tested();
     for (const Held* block : drawn_) {
         const auto count = static_cast<std::uint32_t>(block->mesh.indices.size());
-        // The fewer triangles, the higher the level, as with other methods.
-        const auto level = static_cast<std::uint8_t>(selective::kLevels + 1 - std::bit_width(count / 3));
-        selection_.draws.push_back({block->node, {0, count}, level, {}, &block->mesh});
+        selection_.draws.push_back({block->node, {0, count}, shown_level(count / 3), {}, &block->mesh});
         selection_.triangles += count / 3;
     }
 }
