@@ -46,7 +46,11 @@ const Selection& HyperblockLod::select(const LodView& view, TileTree& tree, std:
     cut_.update(view, blocks_tau_px > 0.0 ? std::min(blocks_tau_px, view.tau_px) : view.tau_px, tree, frame);
     collect(frame);
     link_neighbours();
-    options_.select_by == SelectBy::Block ? select_by_block(view) : select_by_vertex(view);
+    if (options_.select_by == SelectBy::Block) {
+        select_by_block(view);
+    } else {
+        select_by_vertex(view);
+    }
     make_dikes();
     emit();
     return selection_;
