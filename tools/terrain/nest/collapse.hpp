@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "tools/terrain/nest/surface_samples.hpp"
+#include "tools/terrain/nest/sampled_surface.hpp"
 
 namespace eyepoint::tools {
 

@@ -16,7 +16,7 @@
 #include "tools/terrain/nest/collapse.hpp"
 #include "tools/terrain/nest/edge_lines.hpp"
 #include "tools/terrain/nest/first_levels.hpp"
-#include "tools/terrain/nest/surface_samples.hpp"
+#include "tools/terrain/nest/sampled_surface.hpp"
 
 namespace eyepoint::tools {
 

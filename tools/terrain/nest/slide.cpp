@@ -85,6 +85,7 @@ bool side_slides_well(const SlidingTriangle& triangle, std::size_t first, const 
 bool slides_well(const SlidingTriangle& triangle, const SampledSurface& surface,
                  const SlideTolerance& tolerance) {
     if (folds(triangle)) return false;
+    if (surface.sweep_bound_m(triangle.from, triangle.to) <= tolerance.begin_m) return true;
     const auto& [from, to] = triangle;
     for (std::size_t i = 0; i < 3; ++i) {
         const double share = 0.25 * static_cast<double>(i + 1);

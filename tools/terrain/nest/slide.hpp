@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "tools/terrain/nest/surface_samples.hpp"
+#include "tools/terrain/nest/sampled_surface.hpp"
 
 namespace eyepoint::tools {
 
@@ -22,6 +22,7 @@ struct SlidingTriangle {
 inline constexpr double kSharesApart = 0.1;
 
 /// What errors are allowed when a slide begins, in its quarters, and half-way through its quarters; metres.
+/// Not less on the way than at its beginning.
 struct SlideTolerance {
     float begin_m = 0.0F;
     std::array<float, 3> quarters_m{};

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tools/terrain/nest/collapse.hpp"
-#include "tools/terrain/nest/surface_samples.hpp"
+#include "tools/terrain/nest/sampled_surface.hpp"
 
 namespace eyepoint::tools {
 

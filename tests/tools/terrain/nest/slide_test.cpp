@@ -164,6 +164,35 @@ TEST_F(SlidingOverRoughGround, WhatSlidesWellFoldsForNoSharesThatAreNearEachOthe
     EXPECT_GT(folding, 100);
 }
 
+TEST_F(SlidingOverRoughGround, NoTriangleOnTheWayHasAGreaterErrorThanTheSweepsBound) {
+    std::uniform_real_distribution<double> share(0.0, 1.0);
+    double least_m = 1e9;
+    for (int round = 0; round < 2000; ++round) {
+        const SlidingTriangle triangle = any_triangle(3);
+        const float bound_m = surface_->sweep_bound_m(triangle.from, triangle.to);
+        least_m = std::min(least_m, double{bound_m});
+        for (int shares = 0; shares < 20; ++shares) {
+            std::array<Corner, 3> moved;
+            for (std::size_t i = 0; i < 3; ++i)
+                moved[i] = part_way(triangle.from[i], triangle.to[i], share(random_));
+            ASSERT_LE(whole_error_m(moved[0], moved[1], moved[2]), bound_m + 0.01F);
+        }
+    }
+    EXPECT_LT(least_m, 60.0);  // of ground 30 m high
+}
+
+TEST_F(SlidingOverRoughGround, PostsBesideTheGridAreInTheSweepsBound) {
+    const SlidingTriangle triangle{{sample(4, 4), sample(6, 4), sample(4, 6)},
+                                   {sample(4, 4), sample(6, 4), sample(6, 6)}};
+    const float without_m = surface_->sweep_bound_m(triangle.from, triangle.to);
+    samples_.between_m.assign(samples_.between_m.size(), 7.0F);
+    lay_out();
+    EXPECT_FLOAT_EQ(surface_->sweep_bound_m(triangle.from, triangle.to), without_m + 7.0F);
+    samples_.lone.push_back({5.5, 4.5, 500.0F});
+    lay_out();
+    EXPECT_GT(surface_->sweep_bound_m(triangle.from, triangle.to), 400.0F);
+}
+
 /// The case of the benchmark field that quarters alone did not see.
 TEST_F(SlidingOverRoughGround, ASpikeBetweenTwoQuartersIsSeen) {
     std::fill(samples_.heights_m.begin(), samples_.heights_m.end(), 0.0F);

@@ -1,7 +1,8 @@
-#include "tools/terrain/nest/surface_samples.hpp"
+#include "tools/terrain/nest/sampled_surface.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <glm/geometric.hpp>
@@ -11,100 +12,6 @@
 namespace eyepoint::tools {
 
 using namespace terrain;
-
-namespace {
-
-/// Every second sample; what the left out ones deviate from the middle of their neighbours goes to those, or,
-/// where it is more than `most_between_m`, they become lone ones.
-HeightSamples thinned(const HeightSamples& fine, float most_between_m) {
-    HeightSamples coarse;
-    coarse.side = (fine.side + 1) / 2;
-    coarse.heights_m.resize(static_cast<std::size_t>(coarse.side) * static_cast<std::size_t>(coarse.side));
-    coarse.between_m.assign(coarse.heights_m.size(), 0.0F);
-    for (int row = 0; row < fine.side; ++row) {
-        for (int column = 0; column < fine.side; ++column) {
-            const int odd_row = row & 1, odd_column = column & 1;
-            const std::size_t low = coarse.at(row / 2, column / 2);
-            const std::size_t high = coarse.at((row + 1) / 2, (column + 1) / 2);
-            const float height_m = fine.heights_m[fine.at(row, column)];
-            float apart_m = fine.between_m[fine.at(row, column)];
-            if (odd_row == 0 && odd_column == 0) {
-                coarse.heights_m[low] = height_m;
-            } else {
-                const float middle_m = (fine.heights_m[fine.at(row - odd_row, column - odd_column)] +
-                                        fine.heights_m[fine.at(row + odd_row, column + odd_column)]) /
-                                       2.0F;
-                apart_m += std::abs(height_m - middle_m);
-                if (apart_m > most_between_m) {
-                    coarse.lone.push_back({column / 2.0, row / 2.0, height_m});
-                    continue;
-                }
-            }
-            coarse.between_m[low] = std::max(coarse.between_m[low], apart_m);
-            coarse.between_m[high] = std::max(coarse.between_m[high], apart_m);
-        }
-    }
-    for (const LoneSample& sample : fine.lone) {
-        const LoneSample place{sample.x / 2.0, sample.y / 2.0, sample.height_m};
-        const auto row = static_cast<int>(std::min(place.y, coarse.side - 2.0));
-        const auto column = static_cast<int>(std::min(place.x, coarse.side - 2.0));
-        const auto height_m = [&](int r, int c) { return coarse.heights_m[coarse.at(r, c)]; };
-        const auto [low, high] = std::minmax({height_m(row, column), height_m(row, column + 1),
-                                              height_m(row + 1, column), height_m(row + 1, column + 1)});
-        const float apart_m = std::max(high - sample.height_m, sample.height_m - low);
-        if (apart_m > most_between_m) {
-            coarse.lone.push_back(place);
-            continue;
-        }
-        for (const std::size_t at : {coarse.at(row, column), coarse.at(row, column + 1),
-                                     coarse.at(row + 1, column), coarse.at(row + 1, column + 1)})
-            coarse.between_m[at] = std::max(coarse.between_m[at], apart_m);
-    }
-    return coarse;
-}
-
-/// Every sample and, between two, their middle.
-HeightSamples doubled(const HeightSamples& coarse) {
-    HeightSamples fine;
-    fine.side = coarse.side * 2 - 1;
-    for (int row = 0; row < fine.side; ++row) {
-        for (int column = 0; column < fine.side; ++column) {
-            const std::size_t low = coarse.at(row / 2, column / 2);
-            const std::size_t high = coarse.at((row + 1) / 2, (column + 1) / 2);
-            fine.heights_m.push_back((coarse.heights_m[low] + coarse.heights_m[high]) / 2.0F);
-            fine.between_m.push_back(std::max(coarse.between_m[low], coarse.between_m[high]));
-        }
-    }
-    for (const LoneSample& sample : coarse.lone)
-        fine.lone.push_back({sample.x * 2.0, sample.y * 2.0, sample.height_m});
-    return fine;
-}
-
-}  // namespace
-
-HeightSamples HeightSamples::join(const std::array<HeightSamples, 4>& children, float most_between_m) {
-    int part_side = 0;
-    for (const HeightSamples& child : children) part_side = std::max(part_side, child.side);
-    HeightSamples whole;
-    whole.side = part_side * 2 - 1;
-    whole.heights_m.resize(static_cast<std::size_t>(whole.side) * static_cast<std::size_t>(whole.side));
-    whole.between_m.assign(whole.heights_m.size(), 0.0F);
-    for (int quadrant = 0; quadrant < 4; ++quadrant) {
-        HeightSamples part = children[static_cast<std::size_t>(quadrant)];
-        while (part.side < part_side) part = doubled(part);
-        const int south = quadrant / 2 * (part_side - 1), west = quadrant % 2 * (part_side - 1);
-        for (int row = 0; row < part_side; ++row) {
-            for (int column = 0; column < part_side; ++column) {
-                const std::size_t to = whole.at(south + row, west + column), from = part.at(row, column);
-                whole.heights_m[to] = part.heights_m[from];
-                whole.between_m[to] = std::max(whole.between_m[to], part.between_m[from]);
-            }
-        }
-        for (const LoneSample& sample : part.lone)
-            whole.lone.push_back({sample.x + west, sample.y + south, sample.height_m});
-    }
-    return whole.side > kMostSamples ? thinned(whole, most_between_m) : whole;
-}
 
 namespace {
 
@@ -215,6 +122,8 @@ float SampledSurface::error_m(const Corner& a, const Corner& b, const Corner& c,
 
 namespace {
 
+constexpr double kRounding = 1e-7;  // in samples: those on a triangle's sides count
+
 /// A side of a triangle as rows cross it.
 struct Side {
     double south, north, west, east;
@@ -233,10 +142,6 @@ Side side_between(const Corner& from, const Corner& to) {
             std::abs(up) < 1e-9 ? 0.0 : (to.x - from.x) / up};
 }
 
-}  // namespace
-
-namespace {
-
 /// As std::floor and std::ceil of what an int can hold, without a call.
 int floor_of(double value) {
     const auto whole = static_cast<int>(value);
@@ -247,65 +152,126 @@ int ceiling_of(double value) {
     return whole < value ? whole + 1 : whole;
 }
 
+/// Rows or columns of samples; none where the last is before the first.
+struct SampleRange {
+    int first, last;
+};
+
+SampleRange samples_between(double low, double high, int side) {
+    return {std::max(0, ceiling_of(low - kRounding)), std::min(side - 1, floor_of(high + kRounding))};
+}
+
+/// Samples of a row in a triangle.
+SampleRange columns_in(const std::array<Side, 3>& sides, int row, int side_samples) {
+    double west = 1e30, east = -1e30;
+    for (const Side& side : sides) {
+        if (row < side.south - kRounding || row > side.north + kRounding) continue;
+        const double x = side.x + side.x_a_row * (row - side.y);
+        west = std::min(west, std::max(x, side.west));
+        east = std::max(east, std::min(x, side.east));
+        if (side.x_a_row == 0.0) {  // along the row, or straight up
+            west = std::min(west, side.west);
+            east = std::max(east, side.east);
+        }
+    }
+    return samples_between(west, east, side_samples);
+}
+
 }  // namespace
 
-template <int kParts>
-float SampledSurface::greatest(const Corner& a, const Corner& b, const Corner& c, float enough_m) const {
-    constexpr double kRounding = 1e-7;  // samples on the sides count
-    const double area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-    // Position at (x, y) = p0 + x px + y py.
-    std::array<float, kParts> p0{}, px{}, py{};
-    for (std::size_t part = 0; part < kParts; ++part) {
-        const double ab = static_cast<double>(b.position_m[part]) - a.position_m[part];
-        const double ac = static_cast<double>(c.position_m[part]) - a.position_m[part];
-        const double by_x = (ab * (c.y - a.y) - ac * (b.y - a.y)) / area;
-        const double by_y = (ac * (b.x - a.x) - ab * (c.x - a.x)) / area;
-        px[part] = static_cast<float>(by_x);
-        py[part] = static_cast<float>(by_y);
-        p0[part] = a.position_m[part];
+/// The plane through a triangle, in the parts of a position that count.
+template <std::size_t kParts>
+class TrianglePlane {
+  public:
+    TrianglePlane(const Corner& a, const Corner& b, const Corner& c) : x_(a.x), y_(a.y) {
+        const double area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+        for (std::size_t part = 0; part < kParts; ++part) {
+            const double ab = static_cast<double>(b.position_m[part]) - a.position_m[part];
+            const double ac = static_cast<double>(c.position_m[part]) - a.position_m[part];
+            first_m_[part] = a.position_m[part];
+            a_column_m_[part] = static_cast<float>((ab * (c.y - a.y) - ac * (b.y - a.y)) / area);
+            a_row_m_[part] = static_cast<float>((ac * (b.x - a.x) - ab * (c.x - a.x)) / area);
+        }
     }
-    const int south = std::max(0, ceiling_of((std::min({a.y, b.y, c.y}) - kRounding)));
-    const int north = std::min(side_ - 1, floor_of((std::max({a.y, b.y, c.y}) + kRounding)));
+
+    /// Square of the distance between the plane at a place and a position, whose parts `part_m(part)` gives.
+    template <typename PartM>
+    [[nodiscard]] float square_from(double x, double y, const PartM& part_m) const {
+        const auto along = static_cast<float>(x - x_), up = static_cast<float>(y - y_);
+        float square = 0.0F;
+        for (std::size_t part = 0; part < kParts; ++part) {
+            const float apart =
+                first_m_[part] + along * a_column_m_[part] + up * a_row_m_[part] - part_m(part);
+            square += apart * apart;
+        }
+        return square;
+    }
+
+  private:
+    double x_, y_;  ///< of the first corner
+    std::array<float, kParts> first_m_{}, a_column_m_{}, a_row_m_{};
+};
+
+template <std::size_t kParts>
+float SampledSurface::greatest(const Corner& a, const Corner& b, const Corner& c, float enough_m) const {
+    const TrianglePlane<kParts> plane{a, b, c};
+    const SampleRange rows = samples_between(std::min({a.y, b.y, c.y}), std::max({a.y, b.y, c.y}), side_);
     const std::array<Side, 3> sides{side_between(a, b), side_between(b, c), side_between(c, a)};
     float greatest = 0.0F;
-    for (int row = south; row <= north; ++row) {
-        double west = 1e30, east = -1e30;
-        for (const Side& side : sides) {
-            if (row < side.south - kRounding || row > side.north + kRounding) continue;
-            const double x = side.x + side.x_a_row * (row - side.y);
-            west = std::min(west, std::max(x, side.west));
-            east = std::max(east, std::min(x, side.east));
-            if (side.x_a_row == 0.0) {  // along the row, or straight up
-                west = std::min(west, side.west);
-                east = std::max(east, side.east);
-            }
-        }
-        const int first = std::max(0, ceiling_of((west - kRounding)));
-        const int last = std::min(side_ - 1, floor_of((east + kRounding)));
+    for (int row = rows.first; row <= rows.last; ++row) {
+        const SampleRange columns = columns_in(sides, row, side_);
         const std::size_t line = static_cast<std::size_t>(row) * static_cast<std::size_t>(side_);
-        const auto up = static_cast<float>(row - a.y);
         const auto square_at = [&](int column) {
             const std::size_t at = line + static_cast<std::size_t>(column);
-            const auto along = static_cast<float>(column - a.x);
-            float square = 0.0F;
-            for (std::size_t part = 0; part < kParts; ++part) {
-                const float apart = p0[part] + along * px[part] + up * py[part] - positions_m_[part][at];
-                square += apart * apart;
-            }
-            return square;
+            return plane.square_from(column, row, [&](std::size_t part) { return positions_m_[part][at]; });
         };
         if (all_are_samples_) {
             float square = 0.0F;
-            for (int column = first; column <= last; ++column) square = std::max(square, square_at(column));
+            for (int column = columns.first; column <= columns.last; ++column)
+                square = std::max(square, square_at(column));
             greatest = std::max(greatest, std::sqrt(square));
         } else {
-            for (int column = first; column <= last; ++column)
+            for (int column = columns.first; column <= columns.last; ++column)
                 greatest = std::max(greatest, std::sqrt(square_at(column)) +
                                                   between_m_[line + static_cast<std::size_t>(column)]);
         }
         if (greatest > enough_m) return greatest;
     }
     return greatest;
+}
+
+template <std::size_t kParts>
+float SampledSurface::sweep_bound(const std::array<Corner, 3>& from, const std::array<Corner, 3>& to) const {
+    const TrianglePlane<kParts> plane{from[0], from[1], from[2]};
+    double south = from[0].y, north = south, west = from[0].x, east = west;
+    float corners_square = 0.0F;
+    for (std::size_t i = 0; i < 3; ++i) {
+        south = std::min({south, from[i].y, to[i].y});
+        north = std::max({north, from[i].y, to[i].y});
+        west = std::min({west, from[i].x, to[i].x});
+        east = std::max({east, from[i].x, to[i].x});
+        const auto part_m = [&](std::size_t part) { return to[i].position_m[part]; };
+        corners_square = std::max(corners_square, plane.square_from(to[i].x, to[i].y, part_m));
+    }
+    const SampleRange rows = samples_between(south, north, side_),
+                      columns = samples_between(west, east, side_);
+    if (!lone_.empty()) return std::numeric_limits<float>::infinity();
+    float samples_m = 0.0F;
+    for (int row = rows.first; row <= rows.last; ++row) {
+        for (int column = columns.first; column <= columns.last; ++column) {
+            const std::size_t at = static_cast<std::size_t>(row) * static_cast<std::size_t>(side_) +
+                                   static_cast<std::size_t>(column);
+            const auto part_m = [&](std::size_t part) { return positions_m_[part][at]; };
+            samples_m =
+                std::max(samples_m, std::sqrt(plane.square_from(column, row, part_m)) + between_m_[at]);
+        }
+    }
+    return std::sqrt(corners_square) + samples_m;
+}
+
+float SampledSurface::sweep_bound_m(const std::array<Corner, 3>& from,
+                                    const std::array<Corner, 3>& to) const {
+    return flat_ ? sweep_bound<1>(from, to) : sweep_bound<3>(from, to);
 }
 
 }  // namespace eyepoint::tools

@@ -1,4 +1,4 @@
-/// The surface below a tile as a square grid of samples, and how far a flat triangle is from it.
+/// The surface below a tile, and how far flat triangles are from it.
 #pragma once
 
 #include <array>
@@ -7,36 +7,9 @@
 
 #include "terrain/geodesy/position.hpp"
 #include "terrain/tiling/tile_id.hpp"
+#include "tools/terrain/nest/height_samples.hpp"
 
 namespace eyepoint::tools {
-
-/// A post between the samples of a grid: place in units of its samples from the south-west.
-struct LoneSample {
-    double x = 0.0;
-    double y = 0.0;
-    float height_m = 0.0F;
-};
-
-/// Heights at samples a side: rows from south, samples from west. A tile without children has its posts;
-/// others their children's samples, thinned to every second one beyond kMostSamples a side.
-struct HeightSamples {
-    static constexpr int kMostSamples = 513;
-    int side = 0;
-    std::vector<float> heights_m;
-    /// How far full-resolution posts that are no samples may lie from the grid of samples around, metres.
-    std::vector<float> between_m;
-    /// Posts off the grid that lie farther from it than that: spikes, cliffs.
-    std::vector<LoneSample> lone;
-
-    [[nodiscard]] std::size_t at(int row, int column) const {
-        return static_cast<std::size_t>(row) * static_cast<std::size_t>(side) +
-               static_cast<std::size_t>(column);
-    }
-    /// Joins four children's samples (south-west, south-east, north-west, north-east), of any sides.
-    /// most_between_m: what left out samples may lie from the grid without being kept as lone ones.
-    [[nodiscard]] static HeightSamples join(const std::array<HeightSamples, 4>& children,
-                                            float most_between_m);
-};
 
 /// A corner: place in units of samples from the south-west, and position.
 struct Corner {
@@ -66,9 +39,18 @@ class SampledSurface {
     /// `enough_m` when it is more than that, as soon as that is known. Samples outside the grid are left out.
     [[nodiscard]] float error_m(const Corner& a, const Corner& b, const Corner& c, float enough_m) const;
 
+    /// Not less than error_m() of any triangle whose corners are on the way from the three of `from`, which
+    /// are counterclockwise, to those of `to`, or anywhere between such corners: infinite if there are lone
+    /// samples. Distances from the plane of `from`, of what slides and of all samples in the box around,
+    /// added up: mostly that is little enough, and cheaper than the errors of the triangles on the way.
+    [[nodiscard]] float sweep_bound_m(const std::array<Corner, 3>& from,
+                                      const std::array<Corner, 3>& to) const;
+
   private:
-    template <int kParts>
+    template <std::size_t kParts>
     [[nodiscard]] float greatest(const Corner& a, const Corner& b, const Corner& c, float enough_m) const;
+    template <std::size_t kParts>
+    [[nodiscard]] float sweep_bound(const std::array<Corner, 3>& from, const std::array<Corner, 3>& to) const;
 
     [[nodiscard]] std::vector<std::size_t> keep_lone(terrain::TileId tile, const HeightSamples& samples);
     [[nodiscard]] float lone_error_m(const std::array<const Corner*, 3>& corners, double area) const;
