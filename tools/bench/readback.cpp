@@ -1,12 +1,13 @@
 #include "tools/bench/readback.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 #include "ig/gpu_fence.hpp"
 #include "ig/picture.hpp"
+#include "tools/bench/median.hpp"
 
 namespace eyepoint::tools {
 
@@ -19,12 +20,6 @@ double took_ms(const Work& work) {
     const auto begin = std::chrono::steady_clock::now();
     work();
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
-}
-
-double median(std::vector<double>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 }  // namespace
@@ -40,7 +35,7 @@ ReadbackTimes time_readback(const ig::FrameBuffer& frame_buffer) {
         reads.push_back(took_ms([&] { frame_buffer.read(picture); }));
         copies.push_back(took_ms([&] { std::memcpy(to.data(), from.data(), from.size()); }));
     }
-    return {median(reads), median(copies)};
+    return {median(std::move(reads)), median(std::move(copies))};
 }
 
 }  // namespace eyepoint::tools

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
+
+#include "tools/bench/median.hpp"
 
 namespace eyepoint::tools {
 
@@ -19,8 +22,7 @@ std::vector<double> smoothed_costs(std::span<const ControlledFrame> frames) {
         std::vector<double> near;
         const std::size_t end = std::min(frames.size(), i + kReach + 1);
         for (std::size_t j = i < kReach ? 0 : i - kReach; j < end; ++j) near.push_back(frames[j].cost_ms);
-        std::ranges::nth_element(near, near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2));
-        costs.push_back(near[near.size() / 2]);
+        costs.push_back(median(std::move(near)));
     }
     return costs;
 }
@@ -94,8 +96,7 @@ std::vector<ControlledFrame> middle_flight(std::span<const std::vector<Controlle
     for (std::size_t i = 0; i < middle.size(); ++i) {
         std::vector<double> costs;
         for (const auto& flight : flights) costs.push_back(flight[i].cost_ms);
-        std::ranges::sort(costs);
-        middle[i].cost_ms = costs[costs.size() / 2];
+        middle[i].cost_ms = median(std::move(costs));
     }
     return middle;
 }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "tools/bench/goals/drawing_goals.hpp"
+#include "tools/bench/median.hpp"
 
 namespace eyepoint::tools {
 

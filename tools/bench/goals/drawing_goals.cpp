@@ -1,9 +1,10 @@
 #include "tools/bench/goals/drawing_goals.hpp"
 
-#include <algorithm>
-#include <functional>
+#include <utility>
 
 #include <fmt/format.h>
+
+#include "tools/bench/median.hpp"
 
 namespace eyepoint::tools {
 
@@ -11,13 +12,6 @@ namespace {
 
 /// A vertex's level and target are in one word of it (terrain/block/block.hpp).
 constexpr double kMorphBytes = 4.0;
-
-double median(std::vector<double> values) {
-    if (values.empty()) return 0.0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 double cpu_of(const TurnFrame& frame) { return frame.cpu_ms; }
 
@@ -28,12 +22,6 @@ tl::expected<std::vector<std::vector<TurnFrame>>, std::string> draw_cruise(
 }
 
 }  // namespace
-
-double median_of(std::span<const TurnFrame> frames, const std::function<double(const TurnFrame&)>& value) {
-    std::vector<double> values;
-    for (const TurnFrame& frame : frames) values.push_back(value(frame));
-    return median(std::move(values));
-}
 
 ig::SceneOptions goal_scene(const std::string& lod_method, double tau_px) {
     return {.lod_method = lod_method, .tau_px = tau_px, .slack = 0.0, .shading = ig::Shading::Deferred};

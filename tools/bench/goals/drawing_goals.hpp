@@ -1,7 +1,6 @@
 /// Goals 3, 5, 8 and 9 as far as they are about drawing: scenes by turns on every so-manieth eye of a path.
 #pragma once
 
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,9 +15,6 @@ namespace eyepoint::tools {
 struct DrawnPair {
     std::span<const TurnFrame> first, second;
 };
-
-[[nodiscard]] double median_of(std::span<const TurnFrame> frames,
-                               const std::function<double(const TurnFrame&)>& value);
 
 /// Median over eyes of the second's frame CPU over the first's.
 [[nodiscard]] double frame_ratio(const DrawnPair& frames);

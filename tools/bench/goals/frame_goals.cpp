@@ -11,6 +11,7 @@
 #include "config/settings.hpp"
 #include "tools/bench/bench_run.hpp"
 #include "tools/bench/eyes.hpp"
+#include "tools/bench/median.hpp"
 #include "tools/bench/regression/bench_result_columns.hpp"
 #include "tools/bench/regression/flight_ratios.hpp"
 
@@ -28,9 +29,7 @@ std::optional<double> outside_gl_ms(const FlightResult& result) {
     std::vector<double> scaled_ms;
     for (std::size_t i = 0; i < result.frames; ++i)
         scaled_ms.push_back((*outside_ms)[i] * kTrianglesOfGoal / std::max((*triangles)[i], 1.0));
-    const auto middle = scaled_ms.begin() + static_cast<std::ptrdiff_t>(scaled_ms.size() / 2);
-    std::nth_element(scaled_ms.begin(), middle, scaled_ms.end());
-    return *middle;
+    return median(std::move(scaled_ms));
 }
 
 /// The driver has the states of another mesh to leave again.

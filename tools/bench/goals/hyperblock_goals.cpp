@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "tools/bench/median.hpp"
+
 namespace eyepoint::tools {
 
 namespace {

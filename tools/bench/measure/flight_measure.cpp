@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "tools/bench/median.hpp"
+
 namespace eyepoint::tools {
 
 namespace {
@@ -67,13 +69,6 @@ class Lap {
     std::optional<MeasuredPosts> before_;
     std::size_t before_frame_ = 0;
 };
-
-double median(std::vector<double> values) {
-    if (values.empty()) return 0.0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 }  // namespace
 

@@ -1,6 +1,5 @@
 #include "tools/bench/papers/he_wang_liu.hpp"
 
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -16,6 +15,7 @@
 #include "tools/bench/goals/streamed_flight.hpp"
 #include "tools/bench/measure/node_bytes.hpp"
 #include "tools/bench/measure/tolerance_match.hpp"
+#include "tools/bench/median.hpp"
 #include "tools/bench/papers/straight_flight.hpp"
 #include "tools/process/child_process.hpp"
 #include "tools/report/page.hpp"
@@ -50,11 +50,6 @@ tl::expected<void, std::string> run_program(std::vector<std::string> arguments) 
 
 double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 double mean(const std::vector<double>& values) { return sum(values) / static_cast<double>(values.size()); }
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 /// What is flown: by what method, in how many triangles or to what tolerance.
 struct Method {

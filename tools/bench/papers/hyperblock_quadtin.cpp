@@ -1,6 +1,5 @@
 #include "tools/bench/papers/hyperblock_quadtin.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
@@ -12,6 +11,7 @@
 #include "ig/lod_view.hpp"
 #include "tools/bench/bench_run.hpp"
 #include "tools/bench/measure/tolerance_match.hpp"
+#include "tools/bench/median.hpp"
 #include "tools/bench/papers/circular_flight.hpp"
 
 namespace eyepoint::tools {
@@ -61,15 +61,6 @@ struct Taken {
     double triangles = 0.0;
     double selection_ms = 0.0;
 };
-
-template <typename Of>
-double median_of(const std::vector<BenchFrame>& frames, Of of) {
-    std::vector<double> values;
-    for (const BenchFrame& frame : frames) values.push_back(of(frame));
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 class Experiment {
   public:

@@ -10,6 +10,7 @@
 #include "tools/bench/eyes.hpp"
 #include "tools/bench/goals/drawing_goals.hpp"
 #include "tools/bench/measure/tolerance_match.hpp"
+#include "tools/bench/median.hpp"
 #include "tools/bench/papers/built_field.hpp"
 
 namespace eyepoint::tools {

@@ -12,6 +12,7 @@
 #include "tools/bench/bench_run.hpp"
 #include "tools/bench/goals/goal_bench.hpp"
 #include "tools/bench/measure/tolerance_match.hpp"
+#include "tools/bench/median.hpp"
 #include "tools/bench/papers/built_field.hpp"
 #include "tools/bench/papers/circular_flight.hpp"
 
@@ -108,11 +109,7 @@ tl::expected<double, std::string> Layout::frame_ms(const Way& way) const {
     drawing.scene.shading = ig::Shading::Deferred;
     const auto drawn = run_bench(drawing, {eyes_.begin(), eyes_.begin() + kDrawnFrames});
     if (!drawn) return tl::unexpected(drawn.error());
-    std::vector<double> cpu_ms;
-    for (const BenchFrame& frame : drawn->frames) cpu_ms.push_back(frame.entry.cpu_ms);
-    const auto middle = cpu_ms.begin() + static_cast<std::ptrdiff_t>(cpu_ms.size() / 2);
-    std::nth_element(cpu_ms.begin(), middle, cpu_ms.end());
-    return *middle;
+    return median_of(drawn->frames, [](const BenchFrame& frame) { return frame.entry.cpu_ms; });
 }
 
 tl::expected<Flown, std::string> Layout::fly(const Way& way) const {
