@@ -14,8 +14,8 @@
 #include "tools/bench/goals/scratch_folder.hpp"
 #include "tools/bench/goals/streamed_flight.hpp"
 #include "tools/bench/measure/node_bytes.hpp"
-#include "tools/bench/measure/tolerance_match.hpp"
 #include "tools/bench/median.hpp"
+#include "tools/bench/papers/default_match.hpp"
 #include "tools/bench/papers/straight_flight.hpp"
 #include "tools/process/child_process.hpp"
 #include "tools/report/page.hpp"
@@ -67,7 +67,7 @@ class Experiment {
     /// The triangles, and the 99.9th percentile of the post error, with everything loaded.
     [[nodiscard]] tl::expected<FlightFigures, std::string> measure(const Method& method);
     /// The default, at the tolerance that gives the same percentile.
-    [[nodiscard]] tl::expected<ToleranceMatch, std::string> match_default(double p999_px);
+    [[nodiscard]] tl::expected<ToleranceMatch, std::string> default_as_good_as(double p999_px);
 
   private:
     Experiment(PaperSettings settings, ScratchFolder scratch,
@@ -141,11 +141,8 @@ tl::expected<FlightFigures, std::string> Experiment::measure(const Method& metho
     return summarise(*frames);
 }
 
-tl::expected<ToleranceMatch, std::string> Experiment::match_default(double p999_px) {
-    auto flight = LodFlight::create(database_, {});
-    if (!flight) return tl::unexpected(flight.error());
-    return match_p999(**flight, *surface_, views(1.0, settings_.every), p999_px, 0.0,
-                      {.pops = false, .faults = false});
+tl::expected<ToleranceMatch, std::string> Experiment::default_as_good_as(double p999_px) {
+    return match_default(database_, *surface_, views(1.0, settings_.every), p999_px);
 }
 
 double bytes_a_drawn_node(const FlightResult& drawn, double block_bytes) {
@@ -162,7 +159,7 @@ tl::expected<PaperRow, std::string> row_of(Experiment& experiment, const PaperLi
     const auto measured = experiment.measure(bintree);
     if (!measured) return tl::unexpected(measured.error());
     const double p999_px = measured->posts.error.percentile(0.999);
-    const auto match = experiment.match_default(p999_px);
+    const auto match = experiment.default_as_good_as(p999_px);
     if (!match) return tl::unexpected(match.error());
     const auto nested = experiment.draw({"nested", match->tau_px, 0});
     if (!nested) return tl::unexpected(nested.error());

@@ -10,9 +10,9 @@
 
 #include "ig/lod_view.hpp"
 #include "tools/bench/bench_run.hpp"
-#include "tools/bench/measure/tolerance_match.hpp"
 #include "tools/bench/median.hpp"
 #include "tools/bench/papers/circular_flight.hpp"
+#include "tools/bench/papers/default_match.hpp"
 
 namespace eyepoint::tools {
 
@@ -69,7 +69,7 @@ class Experiment {
     [[nodiscard]] tl::expected<Taken, std::string> take(const std::string& method, const Options& options,
                                                         double tau_px) const;
     /// The default at the tolerance that gives the post error of a way at kComparedAtPx.
-    [[nodiscard]] tl::expected<ToleranceMatch, std::string> match_default(const Options& options) const;
+    [[nodiscard]] tl::expected<ToleranceMatch, std::string> default_as_good_as(const Options& options) const;
     [[nodiscard]] const terrain::Manifest& field() const { return database_->manifest(); }
     [[nodiscard]] std::size_t frames() const { return eyes_.size(); }
 
@@ -126,16 +126,9 @@ tl::expected<Taken, std::string> Experiment::take(const std::string& method, con
                  figures.triangles_mean, figures.selection_us_median / kUsPerMs};
 }
 
-tl::expected<ToleranceMatch, std::string> Experiment::match_default(const Options& options) const {
-    FullSurface surface(database_);
-    auto flight = LodFlight::create(database_, {.lod_method = "hyperblock", .hyperblock = options});
-    if (!flight) return tl::unexpected(flight.error());
-    const auto frames = measure_flight(**flight, surface, views(kComparedAtPx, every_), {.pops = false});
-    if (!frames) return tl::unexpected(frames.error());
-    const double p999_px = summarise(*frames).posts.error.percentile(0.999);
-    auto nested = LodFlight::create(database_, {});
-    if (!nested) return tl::unexpected(nested.error());
-    return match_p999(**nested, surface, views(1.0, every_), p999_px, 0.0, {.pops = false, .faults = false});
+tl::expected<ToleranceMatch, std::string> Experiment::default_as_good_as(const Options& options) const {
+    return match_default(database_, {.lod_method = "hyperblock", .hyperblock = options},
+                         views(kComparedAtPx, every_));
 }
 
 PaperRow row_of(const std::string& name, const Taken& taken, const Taken& by_vertex,
@@ -168,7 +161,7 @@ std::string setting_of(const Experiment& experiment) {
 
 tl::expected<void, std::string> add_default(PaperTable& table, const Experiment& experiment,
                                             const Taken& by_vertex) {
-    const auto match = experiment.match_default({});
+    const auto match = experiment.default_as_good_as({});
     if (!match) return tl::unexpected(match.error());
     const auto taken = experiment.take("nested", {}, match->tau_px);
     if (!taken) return tl::unexpected(taken.error());

@@ -9,9 +9,9 @@
 #include "ig/lod_view.hpp"
 #include "tools/bench/eyes.hpp"
 #include "tools/bench/goals/drawing_goals.hpp"
-#include "tools/bench/measure/tolerance_match.hpp"
 #include "tools/bench/median.hpp"
 #include "tools/bench/papers/built_field.hpp"
+#include "tools/bench/papers/default_match.hpp"
 
 namespace eyepoint::tools {
 
@@ -55,7 +55,7 @@ class Cut {
         : field_(std::move(field)), eyes_(std::move(eyes)) {}
     [[nodiscard]] std::vector<terrain::LodView> views(std::size_t every) const;
     [[nodiscard]] tl::expected<FlightFigures, std::string> errors(const terrain::tiles::Options& tile) const;
-    [[nodiscard]] tl::expected<ToleranceMatch, std::string> match_default(double p999_px) const;
+    [[nodiscard]] tl::expected<ToleranceMatch, std::string> default_as_good_as(double p999_px) const;
 
     BuiltField field_;
     std::vector<ig::FlightEye> eyes_;
@@ -95,12 +95,9 @@ tl::expected<FlightFigures, std::string> Cut::errors(const terrain::tiles::Optio
     return summarise(*frames);
 }
 
-tl::expected<ToleranceMatch, std::string> Cut::match_default(double p999_px) const {
-    auto flight = LodFlight::create(field_.database(), {});
-    if (!flight) return tl::unexpected(flight.error());
+tl::expected<ToleranceMatch, std::string> Cut::default_as_good_as(double p999_px) const {
     FullSurface surface(field_.database());
-    return match_p999(**flight, surface, views(kEyesAMeasure), p999_px, 0.0,
-                      {.pops = false, .faults = false});
+    return match_default(field_.database(), surface, views(kEyesAMeasure), p999_px);
 }
 
 tl::expected<PaperRow, std::string> Cut::measure(const TimedLine& line) const {
@@ -112,7 +109,7 @@ tl::expected<PaperRow, std::string> Cut::measure(const TimedLine& line) const {
     const auto figures = errors(with.tile);
     if (!figures) return tl::unexpected(figures.error());
     const double p999_px = figures->posts.error.percentile(0.999);
-    const auto match = match_default(p999_px);
+    const auto match = default_as_good_as(p999_px);
     if (!match) return tl::unexpected(match.error());
     const std::array scenes{without, with, goal_scene("nested", match->tau_px)};
     const auto frames = draw_by_turns(field_.database(), scenes, eyes_, kGoalPicture, kTurns);

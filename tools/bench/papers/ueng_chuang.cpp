@@ -11,10 +11,10 @@
 #include "ig/lod_view.hpp"
 #include "tools/bench/bench_run.hpp"
 #include "tools/bench/goals/goal_bench.hpp"
-#include "tools/bench/measure/tolerance_match.hpp"
 #include "tools/bench/median.hpp"
 #include "tools/bench/papers/built_field.hpp"
 #include "tools/bench/papers/circular_flight.hpp"
+#include "tools/bench/papers/default_match.hpp"
 
 namespace eyepoint::tools {
 
@@ -128,18 +128,9 @@ tl::expected<Flown, std::string> Layout::fly(const Way& way) const {
 
 tl::expected<Way, std::string> Layout::default_as_good_as(double tau_px) const {
     const Way uncached{.tau_px = tau_px};
-    auto flight = LodFlight::create(field_.database(),
-                                    {.lod_method = uncached.method, .selective = uncached.options()});
-    if (!flight) return tl::unexpected(flight.error());
-    FullSurface surface(field_.database());
-    const auto frames =
-        measure_flight(**flight, surface, views(uncached, kErrorFrames), {.pops = false, .faults = false});
-    if (!frames) return tl::unexpected(frames.error());
-    auto nested = LodFlight::create(field_.database(), {});
-    if (!nested) return tl::unexpected(nested.error());
     const auto match =
-        match_p999(**nested, surface, views(uncached, kErrorFrames),
-                   summarise(*frames).posts.error.percentile(0.999), 0.0, {.pops = false, .faults = false});
+        match_default(field_.database(), {.lod_method = uncached.method, .selective = uncached.options()},
+                      views(uncached, kErrorFrames));
     if (!match) return tl::unexpected(match.error());
     return Way{.method = "nested", .tau_px = match->tau_px};
 }
