@@ -35,16 +35,14 @@ constexpr const char* kExtent = "8.7890625,0,9.0087890625,0.2197265625";
 constexpr int kDepth = 14;
 
 struct PaperLine {
-    double tau_px = 0.0, slack_px = 0.0;
-    double triangles = 0.0, lod_ms = 0.0, frames_a_second = 0.0;  ///< table 1
-    double selected = 0.0, missed_percent = 0.0;                  ///< table 3
-};
-struct PaperTolerance {
     double tau_px = 0.0;
-    double triangles = 0.0, lod_ms = 0.0, frames_a_second = 0.0;  ///< table 1, without a cache
+    std::optional<double> slack_px;                               ///< none: without a cache
+    double triangles = 0.0, lod_ms = 0.0, frames_a_second = 0.0;  ///< table 1
+    std::optional<double> selected, missed_percent;               ///< table 3, which is of a cache
 };
-constexpr std::array<PaperTolerance, 3> kUncached{
-    {{0.5, 49097, 34.8, 5.5}, {1.0, 25158, 23.7, 10.2}, {2.0, 11277, 13.3, 22.1}}};
+constexpr std::array<PaperLine, 3> kUncached{{{0.5, {}, 49097, 34.8, 5.5, {}, {}},
+                                              {1.0, {}, 25158, 23.7, 10.2, {}, {}},
+                                              {2.0, {}, 11277, 13.3, 22.1, {}, {}}}};
 constexpr std::array<PaperLine, 7> kCached{{{0.5, 0.05, 47487, 1.2, 6.9, 23731, 1.5},
                                             {0.5, 0.10, 45972, 0.7, 7.1, 22971, 3.4},
                                             {1.0, 0.05, 24595, 1.4, 13.7, 12239, 0.7},
@@ -139,14 +137,15 @@ double more_percent(double now, double before) { return 100.0 * (now / before - 
 double less_percent(double now, double before) { return 100.0 * (1.0 - now / before); }
 double per_frame(std::uint64_t sum) { return static_cast<double>(sum) / static_cast<double>(kFlight.frames); }
 
-/// paper: the line that this one is to be compared with.
-PaperRow row_of(const std::string& name, const Flown& flown, const Flown& uncached,
-                const PaperTolerance& without, const std::optional<PaperLine>& paper) {
-    const auto of = [&](double PaperLine::*figure) {
-        return paper ? std::optional{(*paper).*figure} : std::nullopt;
+/// paper: the line that this one is to be compared with. without: its line without a cache.
+PaperRow row_of(const std::string& name, const Flown& flown, const Flown& uncached, const PaperLine& without,
+                const std::optional<PaperLine>& paper) {
+    const auto of = [&](auto PaperLine::*figure) {
+        return paper ? std::optional<double>{(*paper).*figure} : std::nullopt;
     };
-    const auto against = [&](double PaperLine::*figure, double before) {
-        return paper ? std::optional{more_percent((*paper).*figure, before)} : std::nullopt;
+    const auto against = [&](double PaperLine::*figure, const auto& compare) {
+        const bool cached = paper && paper->slack_px;
+        return cached ? std::optional{compare((*paper).*figure, without.*figure)} : std::nullopt;
     };
     const bool selective = flown.audit.selected > 0;
     const auto counted = [&](double figure) { return selective ? std::optional{figure} : std::nullopt; };
@@ -154,14 +153,13 @@ PaperRow row_of(const std::string& name, const Flown& flown, const Flown& uncach
     return {name,
             {{"triangles", flown.triangles, of(&PaperLine::triangles)},
              {"against uncached, %", more_percent(flown.triangles, uncached.triangles),
-              against(&PaperLine::triangles, without.triangles)},
+              against(&PaperLine::triangles, more_percent)},
              {"LOD, ms", flown.lod_ms, of(&PaperLine::lod_ms)},
              {"LOD time saved, %", less_percent(flown.lod_ms, uncached.lod_ms),
-              paper ? std::optional{less_percent(paper->lod_ms, without.lod_ms)} : std::nullopt},
+              against(&PaperLine::lod_ms, less_percent)},
              {"frames a second", 1000.0 / flown.frame_ms, of(&PaperLine::frames_a_second)},
              {"more than uncached, %", more_percent(uncached.frame_ms, flown.frame_ms),
-              paper ? std::optional{more_percent(paper->frames_a_second, without.frames_a_second)}
-                    : std::nullopt},
+              against(&PaperLine::frames_a_second, more_percent)},
              {"vertices selected", counted(per_frame(flown.audit.selected)), of(&PaperLine::selected)},
              {"missed, %", counted(100.0 * static_cast<double>(flown.audit.missed) / selected),
               of(&PaperLine::missed_percent)},
@@ -185,26 +183,22 @@ PaperTable empty_table() {
 }
 
 /// The rows of one tolerance.
-tl::expected<std::vector<PaperRow>, std::string> rows_of(const Layout& layout,
-                                                         const PaperTolerance& without) {
+tl::expected<std::vector<PaperRow>, std::string> rows_of(const Layout& layout, const PaperLine& without) {
     const double tau_px = without.tau_px;
     const auto uncached = layout.fly({.tau_px = tau_px});
     if (!uncached) return tl::unexpected(uncached.error());
-    const PaperLine itself{tau_px, 0.0, without.triangles, without.lod_ms, without.frames_a_second, {}, {}};
     std::vector<PaperRow> rows{
-        row_of(fmt::format("{}, uncached", tau_px), *uncached, *uncached, without, itself)};
-    for (PaperFigure& figure : rows.front().figures)
-        if (figure.paper == 0.0) figure.paper.reset();
+        row_of(fmt::format("{}, uncached", tau_px), *uncached, *uncached, without, without)};
     for (const PaperLine& line : kCached) {
         if (line.tau_px != tau_px) continue;
         for (const bool sound : {false, true}) {
             const auto flown = layout.fly({.tau_px = tau_px,
-                                           .slack_px = line.slack_px,
+                                           .slack_px = line.slack_px.value(),
                                            .reuse = sound ? ReuseTest::Sound : ReuseTest::FourCorner});
             if (!flown) return tl::unexpected(flown.error());
-            rows.push_back(
-                row_of(fmt::format("{}, s {}, {}", tau_px, line.slack_px, sound ? "sound" : "four corners"),
-                       *flown, *uncached, without, sound ? std::nullopt : std::optional{line}));
+            rows.push_back(row_of(
+                fmt::format("{}, s {}, {}", tau_px, line.slack_px.value(), sound ? "sound" : "four corners"),
+                *flown, *uncached, without, sound ? std::nullopt : std::optional{line}));
         }
     }
     const auto as_good = layout.default_as_good_as(tau_px);
@@ -226,8 +220,8 @@ tl::expected<PaperTable, std::string> ueng_chuang_tables_1_to_3(const PaperSetti
     }
     const auto layout = Layout::make(settings);
     if (!layout) return tl::unexpected(layout.error());
-    for (const PaperTolerance& tolerance : kUncached) {
-        auto rows = rows_of(*layout, tolerance);
+    for (const PaperLine& without : kUncached) {
+        auto rows = rows_of(*layout, without);
         if (!rows) return tl::unexpected(rows.error());
         std::ranges::move(*rows, std::back_inserter(table.rows));
     }
