@@ -32,8 +32,7 @@ void add_tile_options(CLI::App& command, terrain::tiles::Options& options);
 void add_hyperblock_options(CLI::App& command, terrain::hyperblock::Options& options);
 
 /// --terrain, --size, --tau, --lod, --triangles, those of selective, tile and hyperblock, --pictures,
-/// --every,
-/// --record, --sentinel. `options` outlives the parsing.
+/// --every, --record, --sentinel. `options` outlives the parsing.
 void add_drawing_options(CLI::App& command, BenchOptions& options, bool terrain_required);
 
 void add_flight_command(CLI::App& program);
