@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 
@@ -10,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/terrain/build_command_report.hpp"
+#include "tools/terrain/command_failure.hpp"
 #include "tools/terrain/compile.hpp"
 #include "tools/terrain/gdal_inputs.hpp"
 #include "tools/terrain/imagery_mosaic.hpp"
@@ -206,10 +206,7 @@ Result<BuildReport> build(const BuildOptions& options) {
 void run(const BuildOptions& options) {
     watch_for_interruption();
     const auto report = build(options);
-    if (!report) {
-        fmt::print(stderr, "eyepoint-terrain build: {}\n", report.error());
-        throw CLI::RuntimeError(1);
-    }
+    if (!report) fail("build", report.error());
     fmt::print("{}", options.json ? as_json(*report).dump(2) + "\n" : as_text(*report));
 }
 

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "terrain/database/database.hpp"
+#include "tools/terrain/command_failure.hpp"
 
 namespace eyepoint::tools {
 
@@ -125,10 +126,7 @@ void add_info_command(CLI::App& application) {
     command->add_flag("--json", options->json, "As JSON, for programs");
     command->callback([options] {
         const auto database = Database::open(options->database);
-        if (!database) {
-            fmt::print(stderr, "eyepoint-terrain info: {}\n", database.error());
-            throw CLI::RuntimeError(1);
-        }
+        if (!database) fail("info", database.error());
         const Account account = account_of(*database);
         options->json ? print_json(*database, account) : print_text(*database, account);
     });

@@ -1,6 +1,5 @@
 #include "tools/terrain/preview_command.hpp"
 
-#include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
@@ -8,6 +7,7 @@
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
+#include "tools/terrain/command_failure.hpp"
 #include "tools/terrain/preview.hpp"
 
 namespace eyepoint::tools {
@@ -21,18 +21,13 @@ struct PreviewOptions {
     int size_px = 1024;
 };
 
-[[noreturn]] void fail_preview(const std::string& reason) {
-    fmt::print(stderr, "eyepoint-terrain preview: {}\n", reason);
-    throw CLI::RuntimeError(1);
-}
-
 void write_picture(const std::string& path, const ReliefPicture& picture) {
     const auto file = OIIO::ImageOutput::create(path);
     const OIIO::ImageSpec spec{picture.width, picture.height, 3, OIIO::TypeDesc::UINT8};
     if (!file || !file->open(path, spec) || !file->write_image(OIIO::TypeDesc::UINT8, picture.rgb.data()) ||
         !file->close()) {
-        fail_preview(fmt::format("{}: the picture cannot be written ({})", path,
-                                 file ? file->geterror() : OIIO::geterror()));
+        fail("preview", fmt::format("{}: the picture cannot be written ({})", path,
+                                    file ? file->geterror() : OIIO::geterror()));
     }
 }
 
@@ -42,9 +37,9 @@ terrain::GeographicExtent wanted_extent(const PreviewOptions& options, const ter
                                            options.extent[3]};
     if (extent.west_deg < -180.0 || extent.east_deg > 180.0 || !(extent.west_deg < extent.east_deg) ||
         extent.south_deg < -90.0 || extent.north_deg > 90.0 || !(extent.south_deg < extent.north_deg)) {
-        fail_preview(
-            "--extent wants W,S,E,N in degrees, west before east and south before north, such as "
-            "7.9,46.2,8.6,46.7");
+        fail("preview",
+             "--extent wants W,S,E,N in degrees, west before east and south before north, such as "
+             "7.9,46.2,8.6,46.7");
     }
     return extent;
 }
@@ -66,9 +61,9 @@ void add_preview_command(CLI::App& application) {
         ->check(CLI::Range(16, 8192));
     command->callback([options] {
         const auto database = terrain::Database::open(options->database);
-        if (!database) fail_preview(database.error());
+        if (!database) fail("preview", database.error());
         const auto picture = draw_relief(*database, wanted_extent(*options, *database), options->size_px);
-        if (!picture) fail_preview(picture.error());
+        if (!picture) fail("preview", picture.error());
         write_picture(options->output, *picture);
     });
 }

@@ -1,11 +1,11 @@
 #include "tools/terrain/synth_command.hpp"
 
-#include <cstdio>
 #include <memory>
 #include <string>
 
 #include <fmt/format.h>
 
+#include "tools/terrain/command_failure.hpp"
 #include "tools/terrain/compile.hpp"
 #include "tools/terrain/interruption.hpp"
 #include "tools/terrain/progress_bar.hpp"
@@ -21,11 +21,6 @@ struct SynthOptions {
     std::vector<double> centre;
     int benchmark_field = 0;
 };
-
-[[noreturn]] void fail_synth(const std::string& reason) {
-    fmt::print(stderr, "eyepoint-terrain synth: {}\n", reason);
-    throw CLI::RuntimeError(1);
-}
 
 CompileRequest compile_request(const SynthOptions& options, const SynthSurface& surface,
                                const terrain::Geoid& geoid) {
@@ -50,21 +45,21 @@ void synthesise(SynthOptions options) {
     }
     if (options.benchmark_field > 0) {
         if ((options.benchmark_field - 1) % terrain::kBlockCells != 0) {
-            fail_synth(
-                fmt::format("--benchmark-field {} is not 32 n + 1 posts; 16385 is", options.benchmark_field));
+            fail("synth", fmt::format("--benchmark-field {} is not 32 n + 1 posts; 16385 is",
+                                      options.benchmark_field));
         }
         options.request.benchmark_field_posts = options.benchmark_field;
     }
     const auto geoid = terrain::Geoid::load(terrain::Geoid::default_grid());
-    if (!geoid) fail_synth(geoid.error());
+    if (!geoid) fail("synth", geoid.error());
     watch_for_interruption();
     const auto surface = SynthSurface::make(options.request, *geoid, was_interrupted);
-    if (!surface) fail_synth("interrupted; nothing was written");
+    if (!surface) fail("synth", "interrupted; nothing was written");
     auto compile = compile_request(options, *surface, *geoid);
     ProgressBar bar{"synth"};
     compile.progress = [&bar](std::uint64_t done, std::uint64_t total) { bar.show(done, total); };
     const auto manifest = compile_database(compile);
-    if (!manifest) fail_synth(manifest.error());
+    if (!manifest) fail("synth", manifest.error());
     fmt::print("{}: {} tiles to depth {}\n", options.output, manifest->tiles, manifest->max_depth);
 }
 

@@ -1,11 +1,11 @@
 #include "tools/terrain/verify_command.hpp"
 
-#include <cstdio>
 #include <memory>
 #include <string>
 
 #include <fmt/format.h>
 
+#include "tools/terrain/command_failure.hpp"
 #include "tools/terrain/progress_bar.hpp"
 #include "tools/terrain/verify.hpp"
 
@@ -19,10 +19,7 @@ void add_verify_command(CLI::App& application) {
     command->add_option("database", *folder, "Folder of the database")->required();
     command->callback([folder] {
         const auto database = terrain::Database::open(*folder);
-        if (!database) {
-            fmt::print(stderr, "eyepoint-terrain verify: {}\n", database.error());
-            throw CLI::RuntimeError(1);
-        }
+        if (!database) fail("verify", database.error());
         std::vector<std::string> faults;
         {
             ProgressBar bar{"verify"};
@@ -30,7 +27,7 @@ void add_verify_command(CLI::App& application) {
             request.progress = [&bar](std::uint64_t done, std::uint64_t total) { bar.show(done, total); };
             faults = verify(*database, request);
         }
-        for (const std::string& fault : faults) fmt::print(stderr, "eyepoint-terrain verify: {}\n", fault);
+        for (const std::string& fault : faults) report_failure("verify", fault);
         if (!faults.empty()) throw CLI::RuntimeError(1);
         fmt::print("{}: sound, {} tiles\n", *folder, database->manifest().tiles);
     });
