@@ -128,7 +128,11 @@ void add_info_command(CLI::App& application) {
         const auto database = Database::open(options->database);
         if (!database) fail("info", database.error());
         const Account account = account_of(*database);
-        options->json ? print_json(*database, account) : print_text(*database, account);
+        if (options->json) {
+            print_json(*database, account);
+        } else {
+            print_text(*database, account);
+        }
     });
 }
 
