@@ -2,8 +2,7 @@
 /// at every hyperLevel, and by vertex.
 #include <gtest/gtest.h>
 
-#include "tests/proof/proven_flight.hpp"
-#include "tests/proof/random_walk.hpp"
+#include "tests/proof/thousand_eyes.hpp"
 
 namespace eyepoint::testing {
 namespace {
@@ -11,24 +10,11 @@ namespace {
 using terrain::hyperblock::Options;
 using terrain::hyperblock::SelectBy;
 
-constexpr std::size_t kEyes = 1000;
-constexpr double kTauPx = 1.0, kSlackPx = 0.1;
-constexpr AnalyticTerrain kHills{.half_size_deg = 0.3, .detail_depth = 11};
-
-class HyperblockProof : public ::testing::Test {
+class HyperblockProof : public ThousandEyes {
   protected:
-    void expect_sound(const Options& options, const std::string& name) {
-        ProvenFlight flight(database_, {.lod_method = "hyperblock", .hyperblock = options});
-        RandomWalk walk(kHills, 20261122);
-        std::vector<terrain::LodView> views;
-        for (std::size_t i = 0; i < kEyes; ++i) views.push_back(walk.next(kTauPx, kSlackPx));
-        const Findings findings = flight.fly(views, {.every = 1, .far_m = 40000.0, .pops = false});
-        testing::expect_sound(findings, name);
-        RecordProperty("posts_beyond", static_cast<int>(findings.beyond));
+    static void expect_sound(const Options& options, const std::string& name) {
+        testing::expect_sound(fly({.lod_method = "hyperblock", .hyperblock = options}), name);
     }
-
-    ScratchFolder scratch_;
-    std::shared_ptr<const terrain::Database> database_ = make_database(kHills, scratch_.path() / "db");
 };
 
 TEST_F(HyperblockProof, ByBlockNothingIsBeyondTauAndSlack) { expect_sound({}, "by block"); }

@@ -85,4 +85,10 @@ terrain::LodView RandomWalk::next(double tau_px, double slack_px) {
     return view;
 }
 
+std::vector<terrain::LodView> RandomWalk::views(std::size_t count, double tau_px, double slack_px) {
+    std::vector<terrain::LodView> views;
+    for (std::size_t i = 0; i < count; ++i) views.push_back(next(tau_px, slack_px));
+    return views;
+}
+
 }  // namespace eyepoint::testing

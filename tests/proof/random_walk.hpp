@@ -2,7 +2,9 @@
 /// turning fast, over a line or a pole and back.
 #pragma once
 
+#include <cstddef>
 #include <random>
+#include <vector>
 
 #include "terrain/lod/lod_method.hpp"
 #include "tests/support/analytic_terrain.hpp"
@@ -17,6 +19,7 @@ class RandomWalk {
     RandomWalk(const AnalyticTerrain& terrain, std::uint64_t seed) : terrain_(terrain), random_(seed) {}
 
     [[nodiscard]] terrain::LodView next(double tau_px, double slack_px);
+    [[nodiscard]] std::vector<terrain::LodView> views(std::size_t count, double tau_px, double slack_px);
 
   private:
     [[nodiscard]] double unit() { return std::uniform_real_distribution<double>(0.0, 1.0)(random_); }

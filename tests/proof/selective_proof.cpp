@@ -3,8 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "tests/proof/proven_flight.hpp"
-#include "tests/proof/random_walk.hpp"
+#include "tests/proof/thousand_eyes.hpp"
 
 namespace eyepoint::testing {
 namespace {
@@ -12,30 +11,18 @@ namespace {
 using terrain::selective::ErrorFormula;
 using terrain::selective::ReuseTest;
 
-constexpr std::size_t kEyes = 1000;
-constexpr double kTauPx = 1.0, kSlackPx = 0.1;
-constexpr AnalyticTerrain kHills{.half_size_deg = 0.3, .detail_depth = 11};
-
-class SelectiveProof : public ::testing::Test {
+class SelectiveProof : public ThousandEyes {
   protected:
-    Findings fly(ErrorFormula error, ReuseTest reuse, const std::string& name) {
-        ProvenFlight flight(database_, {.lod_method = "selective", .selective = {error, reuse}});
-        RandomWalk walk(kHills, 20261122);
-        std::vector<terrain::LodView> views;
-        for (std::size_t i = 0; i < kEyes; ++i) views.push_back(walk.next(kTauPx, kSlackPx));
-        const Findings findings = flight.fly(views, {.every = 1, .far_m = 40000.0, .pops = false});
+    static Findings fly(ErrorFormula error, ReuseTest reuse, const std::string& name) {
+        const Findings findings = ThousandEyes::fly({.lod_method = "selective", .selective = {error, reuse}});
         expect_whole(findings, name);
         const terrain::SelectionAudit& audit = findings.figures.audit;
         fmt::print("{}: {} vertices, {} missed, {} beyond tau + s, worst {:.3f} px\n", name, audit.selected,
                    audit.missed, audit.too_far, audit.worst_px);
         RecordProperty("missed_vertices", static_cast<int>(audit.missed));
         RecordProperty("vertices_beyond", static_cast<int>(audit.too_far));
-        RecordProperty("posts_beyond", static_cast<int>(findings.beyond));
         return findings;
     }
-
-    ScratchFolder scratch_;
-    std::shared_ptr<const terrain::Database> database_ = make_database(kHills, scratch_.path() / "db");
 };
 
 TEST_F(SelectiveProof, WithTheSoundTestNothingIsBeyondTauAndSlack) {
