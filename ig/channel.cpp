@@ -244,6 +244,7 @@ Expected<std::string> run_channel(const config::Settings& settings, const Channe
     frame_buffer->bind();
     const View first_view = warm_up_view(**database, settings.view);
     (*scene)->warm_up(first_view);
+    if (*hud) (*hud)->draw(picture_size(settings.view));
     (void)wait_for_gpu();
     if (*control) surroundings.inform(describe(check_timer_queries([&] { (*scene)->draw(first_view); })));
     const GlIdentity& gl = graphics->identity();
