@@ -66,6 +66,7 @@ std::shared_ptr<const Database> NestedLodTest::database_;
 
 using NestedFlight = testing::MethodFlight<NestedLod>;
 
+/// With whole blocks, or cut into cells.
 NestedFlight fly(std::unique_ptr<Pager> pager, bool reuse, bool cut = false) {
     return NestedFlight{std::move(pager), reuse, false, cut};
 }
