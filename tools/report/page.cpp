@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "tools/report/page_parts.hpp"
 #include "tools/report/page_texts.hpp"
 #include "tools/report/summary.hpp"
 
@@ -47,29 +48,6 @@ constexpr std::array kSummaryRows = {
     SummaryRow{"allocations", "Heap allocations of the frame thread", 0},
     SummaryRow{"tau_px", "Tolerance, px", 2},
 };
-
-std::string escaped(std::string_view text) {
-    std::string result;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                result += "&amp;";
-                break;
-            case '<':
-                result += "&lt;";
-                break;
-            case '>':
-                result += "&gt;";
-                break;
-            case '"':
-                result += "&quot;";
-                break;
-            default:
-                result += c;
-        }
-    }
-    return result;
-}
 
 std::string base64(std::string_view bytes) {
     std::string result;
@@ -190,11 +168,7 @@ std::string plot_data(const FrameColumns& record, std::size_t step) {
             }
         }
     }
-    // No '<' can stand in the text, so that nothing in it ends the script element that holds it.
-    std::string text;
-    for (const char c : columns.dump(-1, ' ', true))
-        text += c == '<' ? std::string("\\u003c") : std::string(1, c);
-    return text;
+    return script_text(columns);
 }
 
 tl::expected<std::string, std::string> picture_figures(std::span<const SmallPicture> pictures) {
@@ -222,21 +196,6 @@ std::string notes(const FrameColumns& record, std::size_t step) {
     return text;
 }
 
-/// The page with each {{name}} replaced; what is put in is not looked at again.
-std::string fill(std::string_view page, std::span<const std::pair<std::string_view, std::string>> parts) {
-    std::string result;
-    while (true) {
-        const auto open = page.find("{{");
-        const auto close = page.find("}}", open);
-        if (open == std::string_view::npos || close == std::string_view::npos) return result += page;
-        result += page.substr(0, open);
-        const auto name = page.substr(open + 2, close - open - 2);
-        const auto part = std::ranges::find(parts, name, [](const auto& entry) { return entry.first; });
-        if (part != parts.end()) result += part->second;
-        page.remove_prefix(close + 2);
-    }
-}
-
 }  // namespace
 
 tl::expected<std::string, std::string> report_page(const std::string& title, const FrameColumns& record,
@@ -245,7 +204,7 @@ tl::expected<std::string, std::string> report_page(const std::string& title, con
     const auto shown = picture_figures(pictures);
     if (!shown) return tl::unexpected(shown.error());
     const std::size_t step = (record.frames + kMostPoints - 1) / kMostPoints;
-    const std::array<std::pair<std::string_view, std::string>, 10> parts = {{
+    const std::array<PagePart, 11> parts = {{
         {"title", escaped(title)},
         {"style", std::string(kPageCss)},
         {"run", run_facts(record, figures)},
@@ -255,6 +214,7 @@ tl::expected<std::string, std::string> report_page(const std::string& title, con
         {"pictures", *shown},
         {"chart_library", std::string(kChartJs)},
         {"data", plot_data(record, step)},
+        {"charts", std::string(kChartsJs)},
         {"script", std::string(kPageJs)},
     }};
     return fill(kPageHtml, parts);

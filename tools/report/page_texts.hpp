@@ -8,6 +8,9 @@ namespace eyepoint::tools {
 extern const std::string_view kPageHtml;
 extern const std::string_view kPageCss;
 extern const std::string_view kPageJs;
+extern const std::string_view kPlotsHtml;
+extern const std::string_view kPlotsJs;
+extern const std::string_view kChartsJs;
 extern const std::string_view kChartJs;
 
 }  // namespace eyepoint::tools

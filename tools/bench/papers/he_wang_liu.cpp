@@ -177,7 +177,9 @@ tl::expected<PaperRow, std::string> row_of(Experiment& experiment, const PaperLi
                      {"cracks", static_cast<double>(measured->faults.cracks), {}},
                      {"nested: post error p99.9, px", match->figures.posts.error.percentile(0.999), {}},
                      {"nested: triangles", match->figures.triangles_mean, {}},
-                     {"nested: frames a second", frames_a_second(*nested), {}}}};
+                     {"nested: frames a second", frames_a_second(*nested), {}}},
+                    static_cast<double>(line.faces),
+                    "bintree"};
 }
 
 std::string setting_of(const PaperSettings& settings, const terrain::Manifest& field) {
@@ -208,6 +210,7 @@ tl::expected<PaperTable, std::string> he_wang_liu_table_1(const PaperSettings& s
         if (!row) return tl::unexpected(row.error());
         table.rows.push_back(std::move(*row));
     }
+    table.plots = {{"Frames a second", "faces", {"frames a second", "nested: frames a second"}, {"bintree"}}};
     table.notes = {
         "Bytes a node: the bits of its block's two sets, split and wanted; with errors: and what its block "
         "knows of its posts, drawn or not ([bintree](../methods/bintree.md#measured)).",

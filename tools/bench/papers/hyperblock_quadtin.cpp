@@ -159,6 +159,21 @@ std::string setting_of(const Experiment& experiment) {
         experiment.frames(), kSize.width_px, kSize.height_px, kFovDeg);
 }
 
+std::vector<PaperPlot> tolerance_plots() {
+    std::vector<std::string> lines;
+    for (const Way& way : ways()) lines.push_back(way.name);
+    lines.emplace_back("nested");
+    std::vector<PaperPlot> plots;
+    const auto add = [&](const std::string& figure, bool logarithmic) {
+        plots.push_back({figure, "tolerance, px", {figure}, lines, logarithmic});
+    };
+    add("frames a second", false);
+    add("against by vertex, %", false);
+    add("triangles", true);
+    add("selection, ms", true);
+    return plots;
+}
+
 tl::expected<void, std::string> add_default(PaperTable& table, const Experiment& experiment,
                                             const Taken& by_vertex) {
     const auto match = experiment.default_as_good_as({});
@@ -167,6 +182,8 @@ tl::expected<void, std::string> add_default(PaperTable& table, const Experiment&
     if (!taken) return tl::unexpected(taken.error());
     table.rows.push_back(row_of(fmt::format("{} px, nested (tau {:.2f})", kComparedAtPx, match->tau_px),
                                 *taken, by_vertex, {}));
+    table.rows.back().x = kComparedAtPx;
+    table.rows.back().line = "nested";
     return {};
 }
 
@@ -184,11 +201,14 @@ tl::expected<PaperTable, std::string> hyperblock_figures_14_to_16(const PaperSet
             if (!by_vertex) by_vertex = *taken;
             table.rows.push_back(row_of(fmt::format("{} px, {}", tau_px, way.name), *taken, *by_vertex,
                                         paper_gain_percent(way.hyper_level, tau_px)));
+            table.rows.back().x = tau_px;
+            table.rows.back().line = way.name;
         }
         if (tau_px != kComparedAtPx) continue;
         if (auto added = add_default(table, *experiment, *by_vertex); !added)
             return tl::unexpected(added.error());
     }
+    table.plots = tolerance_plots();
     table.notes = {
         "HyperLevel: the paper's, of a tree over 2048 cells a side: 7 are blocks of 16 x 16 cells, four a "
         "tile (`lod.hyper_level` = 1), 8 of 8 x 8, 9 of 4 x 4.",

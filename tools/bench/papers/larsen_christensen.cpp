@@ -43,6 +43,8 @@ double triangles(const TurnFrame& frame) { return static_cast<double>(frame.tria
 
 double percent_more(double with, double without) { return 100.0 * (without / with - 1.0); }
 
+std::string tile_line(int posts) { return fmt::format("tiles of {}", posts); }
+
 /// The benchmark field at fewer posts, and what is flown over it.
 class Cut {
   public:
@@ -130,7 +132,9 @@ tl::expected<PaperRow, std::string> Cut::measure(const TimedLine& line) const {
                      {"cracks", static_cast<double>(figures->faults.cracks), {}},
                      {"nested: triangles", median_of((*frames)[2], triangles), {}},
                      {"nested: frames a second", a_second((*frames)[2]), {}},
-                     {"nested: selection, ms", median_of((*frames)[2], selection_ms), {}}}};
+                     {"nested: selection, ms", median_of((*frames)[2], selection_ms), {}}},
+                    static_cast<double>(line.posts),
+                    tile_line(line.tile)};
 }
 
 PaperTable empty_table() {
@@ -168,6 +172,10 @@ tl::expected<PaperTable, std::string> larsen_christensen_table_7(const PaperSett
         if (!row) return tl::unexpected(row.error());
         table.rows.push_back(std::move(*row));
     }
+    table.plots = {{"What morph adds, % of a frame",
+                    "posts a side of the terrain",
+                    {"morph adds, % of a frame"},
+                    {tile_line(17), tile_line(33)}}};
     table.notes = {
         "Morph adds: the median of the frames' ratios. The paper's are its frame rates' "
         "([tile](../methods/tile.md)).",

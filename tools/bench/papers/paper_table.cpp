@@ -48,11 +48,43 @@ nlohmann::json json_of(std::optional<double> value) {
 }
 
 nlohmann::json json_of(const PaperRow& row) {
-    nlohmann::json json{{"name", row.name}, {"figures", nlohmann::json::array()}};
+    nlohmann::json json{
+        {"name", row.name}, {"x", row.x}, {"line", row.line}, {"figures", nlohmann::json::array()}};
     for (const PaperFigure& figure : row.figures)
         json["figures"].push_back(
             {{"what", figure.what}, {"ours", json_of(figure.ours)}, {"paper", json_of(figure.paper)}});
     return json;
+}
+
+nlohmann::json json_of(const PaperPlot& plot) {
+    return {{"title", plot.title},
+            {"x", plot.x},
+            {"figures", plot.figures},
+            {"lines", plot.lines},
+            {"logarithmic", plot.logarithmic}};
+}
+
+// What these read throws where it is not what json_of() gave.
+
+std::optional<double> number_of(const nlohmann::json& json) {
+    return json.is_null() ? std::nullopt : std::optional{json.get<double>()};
+}
+
+PaperRow row_of(const nlohmann::json& json) {
+    PaperRow row{json.at("name"), {}, json.at("x"), json.at("line")};
+    for (const auto& figure : json.at("figures"))
+        row.figures.push_back(
+            {figure.at("what"), number_of(figure.at("ours")), number_of(figure.at("paper"))});
+    return row;
+}
+
+PaperTable table_of(const nlohmann::json& json) {
+    PaperTable table{json.at("source"), json.at("setting"), json.at("names"), {}, json.at("notes"), {}};
+    for (const auto& row : json.at("rows")) table.rows.push_back(row_of(row));
+    for (const auto& plot : json.at("plots"))
+        table.plots.push_back(
+            {plot.at("title"), plot.at("x"), plot.at("figures"), plot.at("lines"), plot.at("logarithmic")});
+    return table;
 }
 
 }  // namespace
@@ -73,13 +105,27 @@ nlohmann::json to_json(std::span<const PaperTable> tables, const std::string& ma
     for (const PaperTable& table : tables) {
         nlohmann::json rows = nlohmann::json::array();
         for (const PaperRow& row : table.rows) rows.push_back(json_of(row));
+        nlohmann::json plots = nlohmann::json::array();
+        for (const PaperPlot& plot : table.plots) plots.push_back(json_of(plot));
         json["tables"].push_back({{"source", table.source},
                                   {"setting", table.setting},
                                   {"names", table.names},
                                   {"rows", std::move(rows)},
-                                  {"notes", table.notes}});
+                                  {"notes", table.notes},
+                                  {"plots", std::move(plots)}});
     }
     return json;
+}
+
+tl::expected<PaperResults, std::string> parse_paper_results(const std::string& text) {
+    try {
+        const auto json = nlohmann::json::parse(text);
+        PaperResults results{json.at("machine"), {}};
+        for (const auto& table : json.at("tables")) results.tables.push_back(table_of(table));
+        return results;
+    } catch (const nlohmann::json::exception& error) {
+        return tl::unexpected(fmt::format("not results of eyepoint-bench papers: {}", error.what()));
+    }
 }
 
 }  // namespace eyepoint::tools

@@ -182,6 +182,15 @@ PaperTable empty_table() {
         {}};
 }
 
+std::string line_of(double tau_px, const char* way) { return fmt::format("tau {}, {}", tau_px, way); }
+
+std::vector<PaperPlot> plots_of_tolerance(double tau_px) {
+    const std::vector<std::string> lines{line_of(tau_px, "uncached"), line_of(tau_px, "four corners"),
+                                         line_of(tau_px, "sound"), line_of(tau_px, "nested")};
+    return {{fmt::format("Triangles, tau {} px", tau_px), "s, px", {"triangles"}, lines},
+            {fmt::format("LOD, ms, tau {} px", tau_px), "s, px", {"LOD, ms"}, lines, true}};
+}
+
 /// The rows of one tolerance.
 tl::expected<std::vector<PaperRow>, std::string> rows_of(const Layout& layout, const PaperLine& without) {
     const double tau_px = without.tau_px;
@@ -189,6 +198,7 @@ tl::expected<std::vector<PaperRow>, std::string> rows_of(const Layout& layout, c
     if (!uncached) return tl::unexpected(uncached.error());
     std::vector<PaperRow> rows{
         row_of(fmt::format("{}, uncached", tau_px), *uncached, *uncached, without, without)};
+    rows.back().line = line_of(tau_px, "uncached");
     for (const PaperLine& line : kCached) {
         if (line.tau_px != tau_px) continue;
         for (const bool sound : {false, true}) {
@@ -199,6 +209,8 @@ tl::expected<std::vector<PaperRow>, std::string> rows_of(const Layout& layout, c
             rows.push_back(row_of(
                 fmt::format("{}, s {}, {}", tau_px, line.slack_px.value(), sound ? "sound" : "four corners"),
                 *flown, *uncached, without, sound ? std::nullopt : std::optional{line}));
+            rows.back().x = line.slack_px.value();
+            rows.back().line = line_of(tau_px, sound ? "sound" : "four corners");
         }
     }
     const auto as_good = layout.default_as_good_as(tau_px);
@@ -207,6 +219,7 @@ tl::expected<std::vector<PaperRow>, std::string> rows_of(const Layout& layout, c
     if (!nested) return tl::unexpected(nested.error());
     rows.push_back(
         row_of(fmt::format("nested (tau {:.2f})", as_good->tau_px), *nested, *uncached, without, {}));
+    rows.back().line = line_of(tau_px, "nested");
     return rows;
 }
 
@@ -224,6 +237,7 @@ tl::expected<PaperTable, std::string> ueng_chuang_tables_1_to_3(const PaperSetti
         auto rows = rows_of(*layout, without);
         if (!rows) return tl::unexpected(rows.error());
         std::ranges::move(*rows, std::back_inserter(table.rows));
+        std::ranges::move(plots_of_tolerance(without.tau_px), std::back_inserter(table.plots));
     }
     table.notes = {
         "Missed: vertices that the screen error asks for and that are not selected, of all selected; beyond: "

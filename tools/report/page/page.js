@@ -1,5 +1,6 @@
 "use strict";
 (() => {
+  const { style, seriesColour, axis, options } = charting;
   const columns = JSON.parse(document.getElementById("columns").textContent);
   const first = columns.time_s ? columns.time_s[0] : 0;
   const time = columns.time_s ? columns.time_s.map((t) => (t === null ? null : t - first)) : columns.frame;
@@ -21,40 +22,9 @@
     { title: "Eye height above the ellipsoid, m", series: [["ellipsoidal_height_m", "height"]], fromZero: false },
   ];
 
-  const style = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-  const seriesColour = (index) => style(`--series-${index + 1}`);
   const has = ([key]) => columns[key] && columns[key].some((value) => value !== null);
   const charts = [];
-
-  const addPlot = (title) => {
-    const plot = document.createElement("div");
-    plot.className = "plot";
-    const heading = plot.appendChild(document.createElement("h3"));
-    heading.textContent = title;
-    const holder = plot.appendChild(document.createElement("div"));
-    holder.className = "canvas";
-    const canvas = holder.appendChild(document.createElement("canvas"));
-    canvas.setAttribute("role", "img");
-    canvas.setAttribute("aria-label", title);
-    document.getElementById("plots").appendChild(plot);
-    return canvas;
-  };
-
-  const axis = (title, more = {}) => ({
-    type: "linear",
-    title: { display: Boolean(title), text: title, color: style("--quiet") },
-    grid: { color: style("--line"), borderColor: style("--line") },
-    ticks: { color: style("--quiet"), maxTicksLimit: 7, includeBounds: false },
-    ...more,
-  });
-
-  const options = (scales, legend) => ({
-    animation: false, responsive: true, maintainAspectRatio: false, parsing: false, normalized: true, spanGaps: true,
-    interaction: { mode: "index", intersect: false },
-    elements: { point: { radius: 0, hitRadius: 8 }, line: { borderWidth: 1.4, tension: 0 } },
-    scales,
-    plugins: { legend: { display: legend, align: "start", labels: { color: style("--ink"), boxWidth: 14, boxHeight: 2 } } },
-  });
+  const addPlot = (title) => charting.addPlot(document.getElementById("plots"), title);
 
   const dataset = ([key, label, side], index) => ({
     label,
@@ -137,7 +107,5 @@
     drawTrack();
   };
 
-  Chart.defaults.font.family = getComputedStyle(document.body).fontFamily;
-  drawAll();
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", drawAll);
+  charting.drawWith(drawAll);
 })();

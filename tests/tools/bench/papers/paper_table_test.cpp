@@ -51,5 +51,26 @@ TEST(PaperTable, JsonHasEveryFigureInFullAndNullWhereThereIsNone) {
     EXPECT_EQ(table["notes"][0], "A note.");
 }
 
+TEST(PaperTable, WhatIsWrittenAsJsonIsReadAgain) {
+    PaperTable table = rates();
+    table.rows[0].x = 5000.0;
+    table.rows[0].line = "bintree";
+    table.plots = {{"Rates", "faces", {"frames a second"}, {"bintree"}, true}};
+    const auto json = to_json(std::array{table}, "a machine");
+    const auto read = parse_paper_results(json.dump());
+    ASSERT_TRUE(read) << read.error();
+    EXPECT_EQ(to_json(read->tables, read->machine), json);
+}
+
+TEST(PaperTable, JsonThatIsNoResultIsRefusedInOneSentence) {
+    for (const char* text : {"", "{", "[]", "{\"machine\":1,\"tables\":[]}",
+                             "{\"machine\":\"a\",\"tables\":[{\"source\":\"b\"}]}"}) {
+        const auto read = parse_paper_results(text);
+        ASSERT_FALSE(read) << text;
+        EXPECT_THAT(read.error(), HasSubstr("not results of eyepoint-bench papers"));
+        EXPECT_EQ(read.error().find('\n'), std::string::npos);
+    }
+}
+
 }  // namespace
 }  // namespace eyepoint::tools
