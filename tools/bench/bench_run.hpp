@@ -57,7 +57,7 @@ struct BenchResult {
     ig::Shading shading = ig::Shading::Automatic;  ///< that was drawn with
     std::string terrain_name;
     std::vector<BenchFrame> frames;
-    double wall_s = 0.0;  ///< of drawing alone, loads and pictures left out
+    double wall_s = 0.0;                    ///< of drawing alone, loads and pictures left out
     std::uint64_t bare_resident_bytes = 0;  ///< with an OpenGL context and a picture, before any terrain
     std::uint64_t peak_resident_bytes = 0;
     ReadbackTimes readback;  ///< of the last frame

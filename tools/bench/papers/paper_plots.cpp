@@ -1,6 +1,9 @@
 #include "tools/bench/papers/paper_plots.hpp"
 
 #include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>

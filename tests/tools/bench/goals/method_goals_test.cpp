@@ -1,5 +1,8 @@
 /// Goals of the published methods, and of the default beside them, from figures made up for the purpose.
 #include <array>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,6 @@
 #include "tools/bench/papers/paper_plots.hpp"
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <iterator>
