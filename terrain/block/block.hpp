@@ -92,7 +92,9 @@ struct Block {
     std::vector<BlockVertex> vertices;   ///< at most kBlockVertices
     std::vector<ReliefPost> relief;      ///< of the 33 x 33 posts, in row order from the south-west
     std::vector<std::uint16_t> indices;  ///< of all levels; empty for a grid
-    std::vector<NestedLevel> levels;     ///< from first_level to last_level; empty for a grid
+    /// From first_level to last_level, and on while the cells' boxes and the parent's mesh say where vertices
+    /// go: the last level's triangles without those that have slid shut by then. Empty for a grid.
+    std::vector<NestedLevel> levels;
     std::uint8_t first_level = 0;
     std::uint8_t last_level = 0;
     /// The exact places of the last of a nested mesh's vertices, NestedMesh::fine_posts; empty for a grid.
@@ -102,6 +104,8 @@ struct Block {
     std::shared_ptr<const CellBounds> bounds;
     std::optional<ImageData> image;  ///< the tile's own picture, if it has one
     bool has_water = false;          ///< any post is water
+    /// Of the last list there is: at least last_level.
+    [[nodiscard]] int last_list_level() const { return first_level + static_cast<int>(levels.size()) - 1; }
     /// Memory it holds, bytes.
     [[nodiscard]] std::size_t bytes() const;
 };

@@ -106,15 +106,18 @@ CellBoxes::Level rounded(const LevelBoxes& boxes, const CellBoxes& frame) {
 
 }  // namespace
 
+int last_box_level(const Block& block, const Block* parent) {
+    if (parent == nullptr) return block.last_level;
+    return std::min(block.last_level + CellBoxes::kLevelsBeyond, int{parent->last_level});
+}
+
 CellBoxes cell_boxes(const Block& block, const Block* parent) {
     CellBoxes result;
     if (block.levels.empty() || block.vertices.empty()) return result;
     result.first_level = block.first_level;
     result.centre = middle(block);
     result.axes = local_axes(result.centre);
-    const int last = parent == nullptr
-                         ? int{block.last_level}
-                         : std::min(block.last_level + CellBoxes::kLevelsBeyond, int{parent->last_level});
+    const int last = last_box_level(block, parent);
     const auto levels = static_cast<std::size_t>(last - block.first_level + 1);
     const std::vector<LevelBoxes> boxes = exact_boxes(block, parent, result, levels);
     LevelBox all;

@@ -49,6 +49,9 @@ struct CellBoxes {
     }
 };
 
+/// The last level that there are boxes for. `parent` is the parent's block, nullptr for a root.
+[[nodiscard]] int last_box_level(const Block& block, const Block* parent);
+
 /// `parent` is the parent's block, nullptr for a root. About 0.1 ms.
 [[nodiscard]] CellBoxes cell_boxes(const Block& block, const Block* parent);
 

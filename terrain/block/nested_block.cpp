@@ -156,7 +156,8 @@ void append_levels(Block& block, const NestedMesh& mesh, std::span<const Place> 
     std::array<bool, 256> goes_at{};
     for (const std::uint8_t level : mesh.gone_level) goes_at[level] = true;
     block.indices.reserve(sorted.triangles.size() * 3 * 2);
-    block.levels.reserve(static_cast<std::size_t>(block.last_level - block.first_level) + 1);
+    block.levels.reserve(static_cast<std::size_t>(block.last_level - block.first_level) + 1 +
+                         CellBoxes::kLevelsBeyond);
     block.levels.push_back(append_level(block.indices, sorted.cell_first, mesh, block.first_level,
                                         [&](std::uint32_t i) { return sorted.triangles[i / 3][i % 3]; }));
     for (int level = block.first_level + 1; level <= block.last_level; ++level) {
@@ -166,7 +167,49 @@ void append_levels(Block& block, const NestedMesh& mesh, std::span<const Place> 
                                                   [&](std::uint32_t i) { return block.indices[i]; })
                                    : before);
     }
-    block.indices.shrink_to_fit();
+}
+
+/// Where a vertex that stays has gone to in the parent's mesh by a level.
+std::uint32_t standing_in_parent(const Block& parent, const BlockVertex& vertex, int level) {
+    std::uint32_t at = vertex.next();
+    while (parent.vertices[at].gone_level() <= level) at = parent.vertices[at].next();
+    return at;
+}
+
+/// Appends those of the last list's triangles that have not slid shut by a level of the parent's.
+NestedLevel append_beyond(Block& block, const Block& parent, int level) {
+    std::vector<std::uint32_t> standing(block.vertices.size(), kNoVertex);
+    const NestedLevel before = block.levels.back();
+    for (std::uint32_t i = before.first(); i < before.first() + before.count(); ++i) {
+        const std::uint16_t vertex = block.indices[i];
+        standing[vertex] = standing_in_parent(parent, block.vertices[vertex], level);
+    }
+    NestedLevel result;
+    for (std::size_t cell = 0; cell < kCells; ++cell) {
+        result.cell_first[cell] = static_cast<std::uint32_t>(block.indices.size());
+        for (std::uint32_t i = before.cell_first[cell]; i < before.cell_first[cell + 1]; i += 3) {
+            const Triangle triangle{block.indices[i], block.indices[i + 1], block.indices[i + 2]};
+            const auto &a = standing[triangle[0]], &b = standing[triangle[1]], &c = standing[triangle[2]];
+            if (a != b && b != c && a != c)
+                block.indices.insert(block.indices.end(), triangle.begin(), triangle.end());
+        }
+        result.filled |= std::uint64_t{block.indices.size() > result.cell_first[cell]} << cell;
+    }
+    result.cell_first[kCells] = static_cast<std::uint32_t>(block.indices.size());
+    if (result.count() != before.count()) return result;
+    block.indices.resize(result.first());
+    return before;
+}
+
+/// Lists for levels above the last, as far as the parent's mesh and the cells' boxes go.
+void append_levels_beyond(Block& block, const Block& parent) {
+    const bool all_in_parent =
+        std::all_of(block.vertices.begin(), block.vertices.end(), [](const auto& vertex) {
+            return vertex.gone_level() != NestedMesh::kStays || vertex.next() != kNoVertex;
+        });
+    if (!all_in_parent) return;
+    for (int level = block.last_level + 1; level <= last_box_level(block, &parent); ++level)
+        block.levels.push_back(append_beyond(block, parent, level));
 }
 
 }  // namespace
@@ -182,6 +225,8 @@ std::shared_ptr<const Block> unfold(BlockData data, const NodeInfo& info, const 
     const std::vector<Place> places = vertex_places(mesh);
     set_motion(*block, mesh, places, parent);
     append_levels(*block, mesh, places);
+    if (parent != nullptr) append_levels_beyond(*block, *parent);
+    block->indices.shrink_to_fit();
     block->cell_boxes = cell_boxes(*block, parent);
     block->relief = relief_of(block->data);
     block->has_water = std::any_of(block->data.water.begin(), block->data.water.end(),

@@ -109,7 +109,10 @@ void CellCut::cut_block(const Frame& frame, const BlockDraw& draw, unsigned side
         return;
     }
     const LocalView local(block.cell_boxes, frame.view);
-    const bool one_level = draw.level == block.last_level || local.farthest_m() < frame.least(draw.level + 1);
+    // Floors hold on the tile's own edges: what its vertices meet beyond them is another matter.
+    const bool has_floors = std::ranges::any_of(draw.floors, [](std::uint8_t floor) { return floor != 0; });
+    const int last = has_floors ? int{block.last_level} : block.last_list_level();
+    const bool one_level = draw.level == last || local.farthest_m() < frame.least(draw.level + 1);
     const CellSet outside = sides != 0 ? find_outside(frame, local, draw, sides) : 0;
     if (one_level && outside == 0) {
         kept_.push_back(draw);
@@ -118,7 +121,7 @@ void CellCut::cut_block(const Frame& frame, const BlockDraw& draw, unsigned side
     selection.triangles -= draw.indices.count / 3;
     CellSet here = ~CellSet{0};  // this level or a coarser one
     for (int level = draw.level; here != 0; ++level) {
-        const CellSet coarser = level < block.last_level ? here & allowing(frame, local, level + 1) : 0;
+        const CellSet coarser = level < last ? here & allowing(frame, local, level + 1) : 0;
         keep(draw, static_cast<std::uint8_t>(level), here & ~coarser, ~here | (coarser & ~outside), ~outside,
              selection);
         here = coarser;

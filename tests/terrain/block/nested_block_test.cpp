@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cstring>
 #include <set>
+#include <span>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -103,10 +105,11 @@ TEST(NestedBlock, EveryLevelsListHasTheVerticesThatAreStillThere) {
     const TileId tile = tile_at(46.5, 8.2, 3);
     const auto block = unfolded(tile);
     const NestedMesh mesh = pattern_mesh(kPlanet, tile);
-    ASSERT_EQ(block->levels.size(), static_cast<std::size_t>(block->last_level - block->first_level) + 1);
+    const auto levels = static_cast<std::size_t>(block->last_level - block->first_level) + 1;
+    ASSERT_GE(block->levels.size(), levels);
     EXPECT_EQ(block->levels.front().count(), 32U * 32 * 6);
-    EXPECT_EQ(block->levels.back().count(), 16U * 16 * 6);
-    for (std::size_t i = 0; i < block->levels.size(); ++i) {
+    EXPECT_EQ(block->levels[levels - 1].count(), 16U * 16 * 6);
+    for (std::size_t i = 0; i < levels; ++i) {
         const int level = block->first_level + static_cast<int>(i);
         std::set<std::uint16_t> want, got;
         for (std::uint16_t v = 0; v < kBlockVertices; ++v) {
@@ -116,6 +119,50 @@ TEST(NestedBlock, EveryLevelsListHasTheVerticesThatAreStillThere) {
         got.insert(first, first + block->levels[i].count());
         EXPECT_EQ(got, want) << "level " << level;
     }
+}
+
+TEST(NestedBlock, ListsAboveTheLastLeaveOutWhatSlidesShutInTheParent) {
+    const TileId tile = tile_at(46.5, 8.2, 3);
+    const auto above = unfolded(parent(tile)), block = unfolded(tile);
+    const NestedMesh mesh = pattern_mesh(kPlanet, parent(tile));
+    EXPECT_EQ(block->last_list_level(),
+              std::min(block->last_level + CellBoxes::kLevelsBeyond, int{above->last_level}));
+    // A triangle by its corners' places in the parent's mesh when a level has come.
+    const auto places_at = [&](std::span<const std::uint16_t> triangle, int level) {
+        std::set<std::uint16_t> places;
+        for (const std::uint16_t corner : triangle) {
+            std::uint16_t there = block->vertices[corner].next();
+            while (mesh.gone_level[there] <= level) there = mesh.target[there];
+            places.insert(there);
+        }
+        return places.size();
+    };
+    const std::span indices{block->indices};
+    const auto list_of = [&](int level) {
+        const NestedLevel& list = block->levels[static_cast<std::size_t>(level - block->first_level)];
+        return indices.subspan(list.first(), list.count());
+    };
+    const auto last = list_of(block->last_level);
+    for (int level = block->last_level + 1; level <= block->last_list_level(); ++level) {
+        std::vector<std::uint16_t> want;
+        for (std::size_t i = 0; i < last.size(); i += 3) {
+            const auto triangle = last.subspan(i, 3);
+            if (places_at(triangle, level) == 3) want.insert(want.end(), triangle.begin(), triangle.end());
+        }
+        const auto got = list_of(level);
+        EXPECT_TRUE(std::ranges::equal(got, want)) << "level " << level;
+        EXPECT_LT(got.size(), last.size());
+        EXPECT_GT(got.size(), 0U);
+    }
+}
+
+TEST(NestedBlock, WithoutItsVerticesInTheParentABlockHasNoListsAboveTheLast) {
+    const TileId below = child({2, 3, 2}, 2);
+    const auto above = unfold(pattern_block({2, 3, 2}), pattern_node(kPlanet, 2), fan_at(0, 0, 100.0F),
+                              nullptr, std::nullopt);
+    const auto block = unfold(pattern_block(below), pattern_node(kPlanet, 3), fan_at(0, 998, 100.0F),
+                              above.get(), std::nullopt);
+    EXPECT_EQ(block->last_list_level(), int{block->last_level});
 }
 
 TEST(NestedBlock, CellsFollowOneAnotherAndHoldTheirTriangles) {
