@@ -53,6 +53,9 @@ glm::uvec4 packed(const terrain::TileSlide& slide) {
     return words;
 }
 
+/// Room made for draws at the start: more than views of a thousand blocks have.
+constexpr std::size_t kDrawsAtFirst = 4096;
+
 bool any(const terrain::EdgeFloors& floors) {
     return std::any_of(floors.begin(), floors.end(), [](std::uint8_t level) { return level != 0; });
 }
@@ -60,6 +63,12 @@ bool any(const terrain::EdgeFloors& floors) {
 bool slides(const terrain::TileSlide& slide) { return slide.slid != 0 || any(slide.border); }
 
 }  // namespace
+
+void DrawCommands::reserve(std::size_t draws) {
+    counts.reserve(draws);
+    offsets.reserve(draws);
+    base_vertices.reserve(draws);
+}
 
 void DrawCommands::clear() {
     counts.clear();
@@ -81,6 +90,11 @@ void DrawCommands::draw() const {
                                   static_cast<GLsizei>(counts.size()), base_vertices.data());
 }
 
+void SortedCommands::reserve(std::size_t draws) {
+    all.reserve(draws);
+    for (DrawCommands& commands : by_features) commands.reserve(draws);
+}
+
 void SortedCommands::clear() {
     all.clear();
     for (DrawCommands& commands : by_features) commands.clear();
@@ -92,7 +106,10 @@ DrawList::DrawList(bool nested, int sliding_parts, bool shared_list)
       shared_list_(shared_list),
       blocks_(kFirstSlots),
       images_(kImageLayers),
-      record_words_(GLenum{GL_TEXTURE_BUFFER}) {}
+      record_words_(GLenum{GL_TEXTURE_BUFFER}) {
+    others_.reserve(kDrawsAtFirst);
+    if (parts_ > 0) sliding_.reserve(kDrawsAtFirst);
+}
 
 std::uint64_t DrawList::uploaded_bytes() const {
     constexpr std::uint64_t kImageBytes = std::uint64_t{terrain::kImageTexels} * terrain::kImageTexels * 4;

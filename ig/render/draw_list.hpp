@@ -22,6 +22,7 @@ struct DrawCommands {
     std::vector<const void*> offsets;
     std::vector<GLint> base_vertices;
 
+    void reserve(std::size_t draws);
     void clear();
     void add(terrain::IndexRange range, std::uint32_t first_index, std::uint32_t slot);
     void draw() const;
@@ -33,6 +34,7 @@ struct SortedCommands {
     DrawCommands all;
     std::array<DrawCommands, kFeatureSets> by_features;
 
+    void reserve(std::size_t draws);
     void clear();
 };
 

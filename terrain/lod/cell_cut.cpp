@@ -20,7 +20,11 @@ namespace {
 /// Of coordinates and distances in float, by distance.
 constexpr double kDistanceRounding = 1e-6;
 
+/// Room made in the first frame: more than views of a thousand blocks have.
+constexpr std::size_t kDrawsAtFirst = 4096;
+
 using Distances = std::array<double, kLevels>;
+
 /// This cell, 0..64, and all after it.
 CellSet from_cell(int cell) { return cell < 64 ? ~CellSet{0} << cell : 0; }
 
@@ -90,6 +94,7 @@ struct CellCut::LocalView {
 
 Selection CellCut::cut(const LodView& view, std::span<const std::uint8_t> sides, Selection selection) {
     const Frame frame(view);
+    kept_.reserve(kDrawsAtFirst);
     kept_.clear();
     for (std::size_t i = 0; i < selection.draws.size(); ++i)
         cut_block(frame, selection.draws[i], sides[i], selection);

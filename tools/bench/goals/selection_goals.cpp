@@ -23,7 +23,8 @@ struct CountedFlight {
 };
 
 bool cuts(const std::string& function) {
-    constexpr std::array kCutting{"CellCut::", "HorizonCulling::", "TerrainHorizon::"};
+    constexpr std::array kCutting{"CellCut::",   "cells_beyond",     "cells_within",
+                                  "cells_below", "HorizonCulling::", "TerrainHorizon::"};
     return std::ranges::any_of(kCutting,
                                [&](const char* name) { return function.find(name) != std::string::npos; });
 }
