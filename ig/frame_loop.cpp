@@ -109,9 +109,12 @@ bool FrameLoop::ended() {
            !parts_.output.keep_going();
 }
 
-bool FrameLoop::host_silent() const {
+/// What came while this process was held up, by the first view's loading or a stop, is heard first.
+bool FrameLoop::host_silent() {
     const double limit_s = settings_.host.end_after_silence_s;
-    return limit_s > 0.0 && host_.silent_s() > limit_s;
+    if (limit_s <= 0.0 || host_.silent_s() <= limit_s) return false;
+    (void)host_.hear();
+    return host_.silent_s() > limit_s;
 }
 
 void FrameLoop::notice_stop(std::int64_t now_ns) {

@@ -77,7 +77,7 @@ class FrameLoop {
     void tell_hud(const FrameEntry& entry);
     [[nodiscard]] bool finish_picture(std::int64_t first_draw_ns) const;
     [[nodiscard]] tl::expected<void, std::string> show(const FrameMoment& moment);
-    [[nodiscard]] bool host_silent() const;
+    [[nodiscard]] bool host_silent();
     void answer_host();
     void notice_stop(std::int64_t now_ns);
     [[nodiscard]] bool waits_for_fresh_eye(std::int64_t now_ns) const;
